@@ -1,0 +1,49 @@
+#pragma once
+
+#include <akmon/contact/contact_parameters.h>
+#include <akmon/forces/external_forces.h>
+#include <akmon/material/material.h>
+#include <akmon/model/body.h>
+#include <akmon/model/essential_conditions.h>
+#include <akmon/output/output_parameters.h>
+#include <akmon/time/step_control.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace akmon
+{
+  /// Everything a parameter file says. Lists such as "Bodies/Names" name the subsections that
+  /// describe the items.
+  struct Case
+  {
+    std::string title;
+    std::string output_directory;
+    StepControl time;
+    std::vector<Material> materials;
+    std::vector<Body> bodies;
+    std::vector<PrescribedMotion> prescribed_motions;
+    std::vector<SurfaceLoad> surface_loads;
+    BodyForce body_force;
+    std::vector<SurfaceContact> contacts;
+    std::vector<RigidPlane> planes;
+    std::vector<Probe> probes;
+    OutputParameters output;
+    std::string as_used; ///< every parameter, in the form of a prm file
+
+    /**
+     * Read a prm file, then the overrides "Section/Sub/Key=value".
+     * Throws InputError, prefixed with the file's name, for unknown keys and inadmissible values.
+     */
+    static Case
+    read(const std::string &file, const std::vector<std::string> &overrides);
+
+    /// Every parameter with default, allowed values and meaning, as Markdown; lists get one item
+    /// "NAME".
+    static void
+    print_reference(std::ostream &out);
+  };
+} // namespace akmon

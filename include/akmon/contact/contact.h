@@ -1,0 +1,135 @@
+#pragma once
+
+#include <akmon/contact/contact_nodes.h>
+#include <akmon/contact/contact_parameters.h>
+#include <akmon/contact/mobility.h>
+#include <akmon/contact/pair.h>
+#include <akmon/contact/surface_search.h>
+#include <akmon/model/essential_conditions.h>
+#include <akmon/model/nodal_state.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace akmon
+{
+  /// What contact did at a time level, summed or maximized over this rank's pairs.
+  struct ContactReport
+  {
+    double max_penetration          = 0.; ///< length
+    double max_penetration_relative = 0.; ///< over the size of the cell faces at the slave
+    dealii::Point<3> place;               ///< of the largest relative penetration
+    unsigned int active_pairs   = 0;
+    unsigned int sticking_pairs = 0;
+    std::vector<dealii::Tensor<1, 3>> forces; ///< per interface, on the slaves
+  };
+
+
+  /**
+   * Frictional contact by complementary equations, forward Lagrangian, decoupled (Problem 3,
+   * Algorithm 1 steps 2, 5 and 6): deformable surfaces and rigid planes. Interfaces are numbered
+   * contacts first, then obstacles.
+   */
+  class Contact
+  {
+  public:
+    /// Throws InputError for unknown surfaces.
+    Contact(const Discretization &discretization,
+            const std::vector<SurfaceContact> &contacts,
+            const std::vector<RigidPlane> &planes,
+            const EssentialConditions &conditions);
+
+    /// Step 2: pairs, normals and gaps at the positions state.x.
+    void
+    search(const NodalState &state);
+
+    /**
+     * Step 5: normal forces t_n = max(0, -(n . G dx_f + g)/A_ii), which keep every gap non-negative
+     * at the position the step reaches. An open gap g may close; of a penetration g < 0 found by
+     * the search only a fraction is taken back in one step.
+     */
+    void
+    resolve_normal(const NodalState &state, const double effective_mass_factor);
+
+    /**
+     * Step 6: tangential forces by Coulomb's law from the sticking force
+     *
+     *     forward: -(1/A_ii) P_tau G dx_f        central: -(2 dt'/A_ii) P_tau G (dx_f/(2 dt') + v~)
+     */
+    void
+    resolve_friction(const NodalState &state, const double effective_mass_factor);
+
+    /// Step 7: dx = dx_f + dx_n + dx_tau (45)(66)(67); sums forces at nodes over ranks.
+    void
+    add_increments(NodalState &state, const double effective_mass_factor);
+
+    /// Work of the normal and of the tangential contact forces through an increment; energy.
+    struct Work
+    {
+      double normal = 0., tangential = 0.;
+    };
+    Work
+    work(const NodalVector &increment) const;
+
+    ContactReport
+    report(const NodalState &state) const;
+
+    /// Names of the interfaces, in their order.
+    std::vector<std::string>
+    names() const;
+
+    /// Contact force at an owned node and whether it is a slave.
+    struct NodalForce
+    {
+      unsigned int node;
+      dealii::Tensor<1, 3> normal, tangential;
+    };
+
+    const std::vector<NodalForce> &
+    nodal_forces() const
+    {
+      return forces;
+    }
+
+    const std::vector<ContactPair> &
+    get_pairs() const
+    {
+      return pairs;
+    }
+
+    /// Relevant boundary faces that take part in contact.
+    std::vector<BoundaryFace>
+    contact_faces() const;
+
+    /// Throws InputError naming the place and depth if bodies overlap in the initial configuration.
+    void
+    refuse_initial_overlap(const NodalState &state) const;
+
+  private:
+    void
+    rebuild_candidates(const NodalState &state);
+    void
+    find_plane_pairs(const NodalState &state);
+    dealii::Tensor<1, 3>
+    relative(const ContactNodes::Field &field, const ContactPair &pair) const;
+    const ContactLaw &
+    law_of(const ContactPair &pair) const;
+
+    const Discretization &discretization;
+    const std::vector<SurfaceContact> &contacts;
+    const std::vector<RigidPlane> &planes;
+    Mobility mobility;
+    ContactNodes nodes;
+    std::vector<SurfaceSearch> searches;
+    std::vector<std::vector<BoundaryFace>> plane_faces;
+    std::vector<std::vector<std::pair<unsigned int, double>>> plane_slaves; ///< owned node, size
+    double moved  = 0.; ///< bound of relative motion since candidates were built
+    bool prepared = false;
+
+    ContactNodes::Field x, dx, dx_free;
+    std::vector<ContactPair> pairs;
+    std::vector<ContactNodes::Contribution> contributions;
+    std::vector<NodalForce> forces;
+  };
+} // namespace akmon

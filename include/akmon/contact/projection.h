@@ -1,0 +1,48 @@
+#pragma once
+
+#include <deal.II/base/tensor.h>
+
+#include <array>
+
+namespace akmon
+{
+  /// A bilinear master segment: its corners counter-clockwise seen from outside; length.
+  using Segment = std::array<dealii::Tensor<1, 3>, 4>;
+
+
+  /// Closest point of a segment to a slave node.
+  struct Projection
+  {
+    enum class Feature
+    {
+      face,
+      edge,  ///< number `where`: from corner `where` to corner (where+1) % 4
+      vertex ///< corner number `where`
+    };
+
+    double xi = 0., eta = 0.;    ///< in [-1,1]^2
+    std::array<double, 4> N;     ///< shape values of the corners
+    dealii::Tensor<1, 3> offset; ///< slave minus closest point; length
+    Feature feature    = Feature::face;
+    unsigned int where = 0;
+  };
+
+
+  /**
+   * Project a point to the closest point of a segment: face, edge or vertex (4). A closest point
+   * within
+   * @p edge_tolerance (in xi, eta) of the segment's border counts as on its edge or vertex.
+   */
+  Projection
+  project(const dealii::Tensor<1, 3> &slave,
+          const Segment &segment,
+          const double edge_tolerance = 1e-3);
+
+  /// Outward unit normal of a segment at (xi, eta).
+  dealii::Tensor<1, 3>
+  segment_normal(const Segment &segment, const double xi, const double eta);
+
+  /// Outward normal of a segment, as long as its area (exact for plane segments).
+  dealii::Tensor<1, 3>
+  area_vector(const Segment &segment);
+} // namespace akmon

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <akmon/contact/contact_nodes.h>
+#include <akmon/contact/contact_parameters.h>
+#include <akmon/contact/pair.h>
+#include <akmon/contact/projection.h>
+
+#include <vector>
+
+namespace akmon
+{
+  /**
+   * Finds the partner of every slave node of one contact. In two stages: candidates (bounding
+   * boxes, across ranks, valid while nothing has moved further than half the search radius) and
+   * pairs (closest feature among the candidates, every step).
+   *
+   * A node's pair belongs to the node's owner, who gets the master faces it may meet, and their
+   * neighbours, from the other ranks.
+   */
+  class SurfaceSearch
+  {
+  public:
+    /// Throws InputError for unknown surfaces.
+    SurfaceSearch(const Discretization &discretization,
+                  const SurfaceContact &contact,
+                  const unsigned int interface);
+
+    /// Distance over which partners are looked for; length. The same on all ranks.
+    double
+    radius() const
+    {
+      return search_radius;
+    }
+
+    /// Get the master faces near this rank's slaves from their owners (collective). Returns their
+    /// nodes.
+    std::vector<dealii::types::global_dof_index>
+    fetch_master_faces(const NodalVector &x);
+
+    /// For every slave the faces within the radius, from boxes around the faces at positions @p x.
+    void
+    build_candidates(const ContactNodes &nodes, const ContactNodes::Field &x);
+
+    /// Append the pairs of this rank's slaves in configuration @p x, in the order of global node
+    /// numbers.
+    void
+    find_pairs(const NodalVector &positions,
+               const ContactNodes::Field &x,
+               std::vector<ContactPair> &pairs) const;
+
+    /// Owned nodes on either surface, sorted.
+    const std::vector<unsigned int> &
+    surface_nodes() const
+    {
+      return owned_surface_nodes;
+    }
+
+    /// Owned and ghost faces of both surfaces.
+    const std::vector<BoundaryFace> &
+    surface_faces() const
+    {
+      return faces;
+    }
+
+  private:
+    struct Slave
+    {
+      unsigned int node;
+      double size;                  ///< least edge of its faces, initially; length
+      unsigned int first_face;      ///< in slave_face_list
+      unsigned int first_candidate; ///< in candidates
+    };
+
+    struct MasterFace
+    {
+      dealii::types::global_cell_index id;
+      std::array<unsigned int, 4> nodes; ///< contact numbers
+    };
+
+    struct FaceMessage
+    {
+      dealii::types::global_cell_index id;
+      std::array<dealii::types::global_dof_index, 4> nodes;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &id &nodes;
+      }
+    };
+
+    struct Partner
+    {
+      unsigned int face; ///< in masters
+      Projection projection;
+    };
+
+    void
+    collect_slaves();
+    Segment
+    segment(const ContactNodes::Field &x, const MasterFace &face) const;
+    dealii::Tensor<1, 3>
+    slave_normal(const NodalVector &positions, const unsigned int slave) const;
+    bool
+    closest_segment(const ContactNodes::Field &x,
+                    const unsigned int slave,
+                    const dealii::Tensor<1, 3> &outward,
+                    Partner &partner) const;
+    void
+    snap_to_closest_node(const ContactNodes::Field &x,
+                         const dealii::Tensor<1, 3> &slave,
+                         Partner &partner) const;
+    dealii::Tensor<1, 3>
+    feature_normal(const ContactNodes::Field &x, const Partner &partner, bool &on_rim) const;
+    unsigned int
+    faces_sharing(const unsigned int node_a, const unsigned int node_b) const;
+
+    const Discretization &discretization;
+    const SurfaceContact &contact;
+    const unsigned int interface;
+    double search_radius;
+    std::vector<BoundaryFace> faces, slave_faces, master_faces; ///< relevant faces
+    std::vector<unsigned int> owned_surface_nodes;
+
+    std::vector<Slave> slaves; ///< and one past the end
+    std::vector<unsigned int> slave_face_list, candidates;
+    std::vector<FaceMessage> fetched;
+    std::vector<MasterFace> masters;          ///< sorted by id
+    std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
+    std::vector<unsigned int> faces_at;
+  };
+} // namespace akmon

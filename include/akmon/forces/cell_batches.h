@@ -1,0 +1,72 @@
+#pragma once
+
+#include <akmon/model/discretization.h>
+#include <akmon/simd.h>
+
+#include <boost/align/aligned_allocator.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace akmon
+{
+  using LaneArray = std::vector<double,
+                                boost::alignment::aligned_allocator<double, lane_alignment>>;
+
+
+  /**
+   * The cells of one body in batches of n_lanes, in global cell order, with the state of their
+   * quadrature points: [batch][q][component][lane], components xx, yy, zz, xy, xz, yz of the Cauchy
+   * stress and then the law's internal variables. The last batch is filled up with copies of its
+   * first cell, which are computed but never used.
+   */
+  struct CellBatches
+  {
+    static constexpr unsigned int n_points = 8; ///< Gauss points per cell
+
+    /// Node numbers [node][lane] of a batch, times three: offsets into nodal vectors.
+    using NodeOffsets = std::uint32_t[8][n_lanes];
+
+    CellBatches(const Discretization &discretization, const unsigned int body);
+
+    unsigned int
+    n_batches() const
+    {
+      return n_used_lanes.size();
+    }
+
+    const NodeOffsets &
+    nodes(const unsigned int batch) const
+    {
+      return *reinterpret_cast<const NodeOffsets *>(&node_offsets[batch * 8 * n_lanes]);
+    }
+
+    double *
+    state_at(const unsigned int batch)
+    {
+      return &state[batch * batch_stride()];
+    }
+
+    const double *
+    state_at(const unsigned int batch) const
+    {
+      return &state[batch * batch_stride()];
+    }
+
+    std::size_t
+    batch_stride() const
+    {
+      return std::size_t(n_points) * n_components * n_lanes;
+    }
+
+    unsigned int body;
+    unsigned int n_components; ///< 6 + number of internal variables
+    std::size_t first_cell;    ///< in Discretization::cells
+    std::size_t n_cells;
+    std::vector<std::uint32_t> node_offsets;
+    std::vector<std::uint8_t> n_used_lanes; ///< per batch
+    LaneArray owned;                        ///< [batch][lane], 1 for cells this rank owns, else 0
+    LaneArray state;
+    LaneArray step_scale; ///< [batch][2][lane], see CriticalStep
+  };
+} // namespace akmon

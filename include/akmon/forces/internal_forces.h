@@ -1,0 +1,115 @@
+#pragma once
+
+#include <akmon/forces/cell_batches.h>
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace akmon
+{
+  /// A cell that cannot be computed any further.
+  struct CellFault
+  {
+    dealii::types::global_cell_index
+      cell = std::numeric_limits<dealii::types::global_cell_index>::max();
+    std::string body;
+    dealii::Point<3> place; ///< a corner of the cell, length
+
+    bool
+    occurred() const
+    {
+      return cell != std::numeric_limits<dealii::types::global_cell_index>::max();
+    }
+  };
+
+
+  /**
+   * Stress update and internal forces of all cells in one pass over their batches, and the
+   * frequency bound of the cells in their current shape.
+   */
+  class InternalForces
+  {
+  public:
+    explicit InternalForces(const Discretization &discretization);
+
+    /**
+     * Update the stresses from configuration n to n+1 and subtract the internal forces at n+1.
+     * @param x      x_{n+1}, ghosted
+     * @param dx     dx_n = x_{n+1} - x_n, ghosted
+     * @param force  complete at owned nodes; ghost entries are partial and must not be read
+     */
+    void
+    update(const NodalVector &x, const NodalVector &dx, NodalVector &force);
+
+    /// Largest omega^2 of this rank's cells in the configuration of the last update (or the initial
+    /// one).
+    double
+    largest_frequency_squared() const
+    {
+      return frequency_squared;
+    }
+
+    /// The cell (index in Discretization::cells) that limits the time step, in the initial
+    /// configuration.
+    std::size_t
+    limiting_cell() const
+    {
+      return initially_limiting_cell;
+    }
+
+    /// The inverted or non-finite cell the last update met, if any.
+    const CellFault &
+    fault() const
+    {
+      return cell_fault;
+    }
+
+    /// Stress work done so far on the cells this rank owns, elastic and plastic together; energy.
+    double
+    internal_work() const
+    {
+      return work;
+    }
+
+    /// Plastic part of internal_work(); energy.
+    double
+    plastic_work() const
+    {
+      return dissipated;
+    }
+
+    const std::vector<CellBatches> &
+    batches() const
+    {
+      return body_batches;
+    }
+
+  private:
+    void
+    calibrate(const NodalVector &x, CellBatches &batches, const unsigned int batch);
+    void
+    report_fault(const NodalVector &x,
+                 const CellBatches &batches,
+                 unsigned int batch,
+                 unsigned int lane);
+
+    template <bool mean_dilatation, typename Law>
+    void
+    update_body(const Law &law,
+                const NodalVector &x,
+                const NodalVector &dx,
+                CellBatches &batches,
+                NodalVector &force);
+
+    const Discretization &discretization;
+    std::vector<CellBatches> body_batches;
+    std::vector<unsigned int>
+      to_calibrate; ///< batches whose shape has changed, of the body in work
+    double frequency_squared            = 0.;
+    std::size_t initially_limiting_cell = 0;
+    double work                         = 0.;
+    double dissipated                   = 0.;
+    CellFault cell_fault;
+  };
+} // namespace akmon

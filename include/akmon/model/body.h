@@ -1,0 +1,40 @@
+#pragma once
+
+#include <akmon/model/mesh_library.h>
+
+#include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/tensor.h>
+
+#include <string>
+
+namespace akmon
+{
+  /// How a cell's stress power is integrated.
+  enum class CellIntegration
+  {
+    full, ///< 2 x 2 x 2 Gauss points, every term; locks when plastic flow keeps the volume
+    mean_dilatation ///< 2 x 2 x 2 Gauss points, dilatation averaged over the cell (B-bar)
+  };
+
+
+  /// One body: its mesh, place, material and initial motion. Section "Bodies/NAME".
+  struct Body
+  {
+    std::string name;
+    MeshParameters mesh;
+    unsigned int refinement = 0;
+    dealii::Tensor<1, 3> position; ///< where the body frame's origin goes, length
+    dealii::Tensor<2, 3> rotation; ///< turns the body about its frame's origin before it is moved
+    dealii::Tensor<1, 3> velocity; ///< initial velocity, length/time
+    dealii::Tensor<1, 3> spin;     ///< initial angular velocity about the centre of volume, 1/time
+    std::string material;
+    CellIntegration integration = CellIntegration::mean_dilatation;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+
+    /// Throws InputError where a value is missing or inadmissible.
+    void
+    parse(dealii::ParameterHandler &prm, const std::string &section);
+  };
+} // namespace akmon

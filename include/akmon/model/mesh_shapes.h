@@ -1,0 +1,97 @@
+#pragma once
+
+#include <akmon/model/body_mesh.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <array>
+#include <string>
+
+namespace akmon
+{
+  /// The number of an entry, above zero, which a pattern cannot ask for. Throws InputError
+  /// (section, key).
+  double
+  get_positive(dealii::ParameterHandler &prm, const std::string &section, const std::string &key);
+
+
+  // Every shape is a value with the same three functions: declare() its keys in the subsection the
+  // handler stands in, parse() them (throws InputError, naming `section`), and make() its mesh,
+  // complete but for the part "all".
+
+  /// A box with its center at the origin. Parts: x-, x+, y-, y+, z-, z+.
+  struct BoxShape
+  {
+    dealii::Tensor<1, 3> size;         ///< edge lengths; length
+    std::array<unsigned int, 3> cells; ///< number of cells along x, y, z
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm, const std::string &section);
+    BodyMesh
+    make(const std::string &section) const;
+  };
+
+  /**
+   * A solid cylinder along z from z = 0 (part "bottom") to its length ("top") with the lateral
+   * surface "side"; sectors have their planes of symmetry as parts "x-" and "y-".
+   */
+  struct CylinderShape
+  {
+    enum class Sector
+    {
+      full,
+      half,   ///< x >= 0
+      quarter ///< x >= 0 and y >= 0
+    };
+
+    double radius; ///< length
+    double length; ///< length
+    unsigned int cells_across;
+    unsigned int cells_radial;
+    unsigned int cells_axial;
+    Sector sector;
+    double axial_grading; ///< length of the last cell over that of the first, along z
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm, const std::string &section);
+    BodyMesh
+    make(const std::string &section) const;
+  };
+
+  /// A hollow cylinder along z from z = 0. Parts: inner, outer, bottom, top.
+  struct HollowCylinderShape
+  {
+    double inner_radius; ///< length
+    double outer_radius; ///< length
+    double length;       ///< length
+    unsigned int cells_radial;
+    unsigned int cells_around;
+    unsigned int cells_axial;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm, const std::string &section);
+    BodyMesh
+    make(const std::string &section) const;
+  };
+
+  /// A solid sphere with its center at the origin. Part: surface.
+  struct SphereShape
+  {
+    double radius; ///< length
+    unsigned int cells_across;
+    unsigned int cells_radial;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+    void
+    parse(dealii::ParameterHandler &prm, const std::string &section);
+    BodyMesh
+    make(const std::string &section) const;
+  };
+} // namespace akmon

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <akmon/model/discretization.h>
+
+namespace akmon
+{
+  /**
+   * The motion at a time level, called n here. Velocity and acceleration are no unknowns of their
+   * own: they follow from the two increments around the level, see Fidcd.
+   */
+  struct NodalState
+  {
+    explicit NodalState(const Discretization &discretization)
+      : x(discretization.reference), dx(discretization.make_vector()),
+        dx_next(discretization.make_vector()), force(discretization.make_vector())
+    {
+    }
+
+    double time        = 0.; ///< t_n
+    double dt          = 0.; ///< t_n - t_{n-1}
+    double dt_next     = 0.; ///< t_{n+1} - t_n
+    unsigned long step = 0;  ///< n
+
+    NodalVector x;       ///< positions x_n, ghosted; length
+    NodalVector dx;      ///< increment that led here, x_n - x_{n-1}, ghosted; length
+    NodalVector dx_next; ///< forward increment x_{n+1} - x_n; length
+    NodalVector force;   ///< forces at n but for contact and reactions, owned entries only
+  };
+} // namespace akmon

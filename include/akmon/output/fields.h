@@ -1,0 +1,62 @@
+#pragma once
+
+#include <akmon/contact/contact.h>
+#include <akmon/forces/internal_forces.h>
+#include <akmon/model/nodal_state.h>
+#include <akmon/output/pvd.h>
+#include <akmon/time/fidcd.h>
+
+#include <string>
+#include <vector>
+
+namespace akmon
+{
+  /// Field files for ParaView: a .vtu per output tick and the .pvd series of them.
+  class Fields
+  {
+  public:
+    Fields(const std::string &directory,
+           const Discretization &discretization,
+           const InternalForces &internal_forces,
+           const Contact &contact,
+           const Fidcd &integrator,
+           const bool deformed);
+
+    /// Write the current level (collective).
+    void
+    write(const NodalState &state);
+
+  private:
+    NodalVector
+    nodal_velocity() const;
+    /// Components: contact pressure (force/area), gap (length, NaN without partner), status (0
+    /// open, 1 slip, 2 stick).
+    NodalVector
+    contact_scalars(const NodalState &state) const;
+    NodalVector
+    contact_traction(const NodalState &state) const;
+    std::vector<double>
+    contact_areas(const NodalState &state) const;
+
+    const std::string directory;
+    const Discretization &discretization;
+    const InternalForces &internal_forces;
+    const Contact &contact;
+    const Fidcd &integrator;
+    const bool deformed;
+    PvdSeries series;
+    unsigned int n_written = 0;
+  };
+
+
+  /// Mean over the Gauss points of the Cauchy stress (components as in Symmetric3) and of the first
+  /// internal variable of a cell.
+  struct CellAverage
+  {
+    Symmetric3<double> stress;
+    double plastic_strain;
+  };
+
+  CellAverage
+  average_over_cell(const CellBatches &batches, const std::size_t cell_of_body);
+} // namespace akmon

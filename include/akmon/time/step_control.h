@@ -1,0 +1,42 @@
+#pragma once
+
+#include <deal.II/base/parameter_handler.h>
+
+namespace akmon
+{
+  /**
+   * The size of the time steps: fixed, or a safety factor times the critical step 2/omega_max.
+   * Section "Time".
+   */
+  struct StepControl
+  {
+    double end           = 0.; ///< time at which the run ends
+    double fixed_step    = 0.; ///< zero: automatic
+    double safety_factor = 0.9;
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+
+    /// Throws InputError where a value is missing or inadmissible.
+    void
+    parse(dealii::ParameterHandler &prm);
+
+    bool
+    automatic() const
+    {
+      return fixed_step == 0.;
+    }
+
+    /**
+     * The step from time @p t on. The last step ends at `end` exactly; an automatic run shares the
+     * rest between its last two steps so that none is tiny.
+     * @param largest_frequency_squared  omega_max^2 over all ranks, 1/time^2
+     */
+    double
+    choose(const double t, const double largest_frequency_squared) const;
+
+    /// Whether the run has reached its end at time t.
+    bool
+    finished(const double t) const;
+  };
+} // namespace akmon

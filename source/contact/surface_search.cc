@@ -1,0 +1,227 @@
+#include <akmon/contact/surface_search.h>
+
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/mpi.h>
+#include <deal.II/numerics/rtree.h>
+
+#include <boost/iterator/function_output_iterator.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::vector<BoundaryFace>
+    select_faces(const Discretization &discretization,
+                 const SurfaceContact &contact,
+                 const std::string &key,
+                 const std::vector<std::string> &surfaces)
+    {
+      std::set<types::boundary_id> ids;
+      for (const auto &surface : surfaces)
+        ids.merge(discretization.boundary_ids("Contact/" + contact.name, key, surface));
+      return discretization.faces_on(ids);
+    }
+
+
+    double
+    face_size(const Discretization &discretization, const BoundaryFace &face)
+    {
+      Segment corners;
+      for (unsigned int k = 0; k < 4; ++k)
+        corners[k] = at_node(discretization.reference, face.nodes[k]);
+      return std::sqrt(area_vector(corners).norm());
+    }
+
+
+    // Mean size of the faces of all ranks; zero if there are none.
+    double
+    mean_size(const Discretization &discretization, const std::vector<BoundaryFace> &faces)
+    {
+      double sum = 0., n = 0.;
+      for (const auto &face : faces)
+        if (face.owned)
+        {
+          sum += face_size(discretization, face);
+          n += 1.;
+        }
+      n = Utilities::MPI::sum(n, discretization.communicator());
+      return n > 0. ? Utilities::MPI::sum(sum, discretization.communicator()) / n : 0.;
+    }
+
+
+    BoundingBox<3>
+    box_around(const std::vector<Point<3>> &points, const double margin)
+    {
+      BoundingBox<3> box(points);
+      box.extend(margin);
+      return box;
+    }
+  } // namespace
+
+
+  SurfaceSearch::SurfaceSearch(const Discretization &discretization,
+                               const SurfaceContact &contact,
+                               const unsigned int interface)
+    : discretization(discretization), contact(contact), interface(interface),
+      slave_faces(select_faces(discretization, contact, "Slave", contact.slaves)),
+      master_faces(select_faces(discretization, contact, "Master", contact.masters))
+  {
+    search_radius = std::max(mean_size(discretization, slave_faces),
+                             mean_size(discretization, master_faces)) *
+                    0.5;
+    faces = slave_faces;
+    faces.insert(faces.end(), master_faces.begin(), master_faces.end());
+    for (const auto &face : faces)
+      for (const unsigned int node : face.nodes)
+        if (node < discretization.n_owned_nodes)
+          owned_surface_nodes.push_back(node);
+    std::sort(owned_surface_nodes.begin(), owned_surface_nodes.end());
+    owned_surface_nodes.erase(std::unique(owned_surface_nodes.begin(), owned_surface_nodes.end()),
+                              owned_surface_nodes.end());
+    collect_slaves();
+  }
+
+
+  void
+  SurfaceSearch::collect_slaves()
+  {
+    std::vector<std::pair<unsigned int, unsigned int>> incidence; // (owned node, slave face)
+    for (unsigned int f = 0; f < slave_faces.size(); ++f)
+      for (const unsigned int node : slave_faces[f].nodes)
+        if (node < discretization.n_owned_nodes)
+          incidence.emplace_back(node, f);
+    std::sort(incidence.begin(), incidence.end());
+    for (const auto &[node, f] : incidence)
+    {
+      if (slaves.empty() || slaves.back().node != node)
+        slaves.push_back(
+          {node, std::numeric_limits<double>::max(), (unsigned int)slave_face_list.size(), 0});
+      slave_face_list.push_back(f);
+      for (unsigned int k = 0; k < 4; ++k)
+        slaves.back().size = std::min(slaves.back().size,
+                                      (at_node(discretization.reference, slave_faces[f].nodes[k]) -
+                                       at_node(discretization.reference,
+                                               slave_faces[f].nodes[(k + 1) % 4]))
+                                        .norm());
+    }
+    slaves.push_back({numbers::invalid_unsigned_int, 0., (unsigned int)slave_face_list.size(), 0});
+  }
+
+
+  std::vector<types::global_dof_index>
+  SurfaceSearch::fetch_master_faces(const NodalVector &x)
+  {
+    const MPI_Comm communicator = discretization.communicator();
+    const unsigned int me       = Utilities::MPI::this_mpi_process(communicator);
+
+    std::vector<Point<3>> slave_points;
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      slave_points.emplace_back(at_node(x, slaves[s].node));
+    double largest_diagonal = 0.;
+    for (const auto &face : master_faces)
+      for (unsigned int k = 0; k < 2; ++k)
+        largest_diagonal = std::max(largest_diagonal,
+                                    (at_node(x, face.nodes[k]) - at_node(x, face.nodes[k + 2]))
+                                      .norm());
+    // Neighbours of faces within the radius are wanted too, for normals at edges and vertices.
+    const double margin = search_radius + Utilities::MPI::max(largest_diagonal, communicator);
+
+    // An empty box for ranks without slaves.
+    std::pair<std::array<double, 3>, std::array<double, 3>> corners{{{1., 1., 1.}}, {{0., 0., 0.}}};
+    if (!slave_points.empty())
+    {
+      const auto points = box_around(slave_points, margin).get_boundary_points();
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        corners.first[d]  = points.first[d];
+        corners.second[d] = points.second[d];
+      }
+    }
+    const auto slave_boxes = Utilities::MPI::all_gather(communicator, corners);
+
+    std::map<unsigned int, std::vector<FaceMessage>> outgoing;
+    for (const auto &face : master_faces)
+      if (face.owned)
+      {
+        std::vector<Point<3>> points;
+        FaceMessage message{face.id, {}};
+        for (unsigned int k = 0; k < 4; ++k)
+        {
+          points.emplace_back(at_node(x, face.nodes[k]));
+          message.nodes[k] = discretization.global_node(face.nodes[k]);
+        }
+        const auto box = BoundingBox<3>(points).get_boundary_points();
+        for (unsigned int rank = 0; rank < slave_boxes.size(); ++rank)
+        {
+          bool overlaps = true;
+          for (unsigned int d = 0; d < 3; ++d)
+            overlaps = overlaps && box.first[d] <= slave_boxes[rank].second[d] &&
+                       box.second[d] >= slave_boxes[rank].first[d];
+          if (overlaps)
+            outgoing[rank].push_back(message);
+        }
+      }
+    fetched = std::move(outgoing[me]);
+    outgoing.erase(me);
+    for (const auto &[rank, messages] : Utilities::MPI::some_to_some(communicator, outgoing))
+      fetched.insert(fetched.end(), messages.begin(), messages.end());
+    std::sort(fetched.begin(), fetched.end(), [](const auto &a, const auto &b) {
+      return a.id < b.id;
+    });
+
+    std::vector<types::global_dof_index> needed;
+    for (const auto &face : fetched)
+      needed.insert(needed.end(), face.nodes.begin(), face.nodes.end());
+    return needed;
+  }
+
+
+  void
+  SurfaceSearch::build_candidates(const ContactNodes &nodes, const ContactNodes::Field &x)
+  {
+    masters.clear();
+    std::vector<std::pair<unsigned int, unsigned int>> incidence; // (contact node, face)
+    std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
+    for (const auto &message : fetched)
+    {
+      MasterFace face{message.id, {}};
+      std::vector<Point<3>> points;
+      for (unsigned int k = 0; k < 4; ++k)
+      {
+        face.nodes[k] = nodes.number(message.nodes[k]);
+        points.emplace_back(x[face.nodes[k]]);
+        incidence.emplace_back(face.nodes[k], masters.size());
+      }
+      boxes.emplace_back(box_around(points, search_radius), masters.size());
+      masters.push_back(face);
+    }
+
+    std::sort(incidence.begin(), incidence.end());
+    faces_at.clear();
+    faces_at_begin.assign(incidence.empty() ? 1 : incidence.back().first + 2, 0);
+    for (const auto &[node, f] : incidence)
+    {
+      faces_at.push_back(f);
+      ++faces_at_begin[node + 1];
+    }
+    for (unsigned int i = 1; i < faces_at_begin.size(); ++i)
+      faces_at_begin[i] += faces_at_begin[i - 1];
+
+    const auto tree = pack_rtree(boxes);
+    candidates.clear();
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+    {
+      slaves[s].first_candidate = candidates.size();
+      tree.query(boost::geometry::index::intersects(Point<3>(x[slaves[s].node])),
+                 boost::make_function_output_iterator(
+                   [&](const auto &entry) { candidates.push_back(entry.second); }));
+      std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());
+    }
+    slaves.back().first_candidate = candidates.size();
+  }
+} // namespace akmon

@@ -1,0 +1,92 @@
+#include <akmon/case.h>
+#include <akmon/parameters.h>
+#include <akmon/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+
+namespace
+{
+  const char *const usage =
+    "usage: akmon FILE.prm [--set \"Section/Sub/Key=value\"]...   run a case\n"
+    "       akmon --validate FILE.prm [--set ...]...             check a case without running it\n"
+    "       akmon --print-parameters                             every parameter and its meaning\n"
+    "       akmon --help | --version\n";
+
+  struct Arguments
+  {
+    std::string file;
+    std::vector<std::string> overrides;
+    bool validate = false, print_parameters = false, help = false, version = false;
+  };
+
+
+  Arguments
+  read_arguments(const int argc, char **argv)
+  {
+    Arguments arguments;
+    for (int i = 1; i < argc; ++i)
+    {
+      const std::string argument = argv[i];
+      if (argument == "--set" && i + 1 < argc)
+        arguments.overrides.emplace_back(argv[++i]);
+      else if (argument == "--validate")
+        arguments.validate = true;
+      else if (argument == "--print-parameters")
+        arguments.print_parameters = true;
+      else if (argument == "--help")
+        arguments.help = true;
+      else if (argument == "--version")
+        arguments.version = true;
+      else if (argument[0] != '-' && arguments.file.empty())
+        arguments.file = argument;
+      else
+        throw akmon::InputError("argument '" + argument + "' is not understood; see akmon --help");
+    }
+    if (arguments.file.empty() && !arguments.print_parameters && !arguments.help &&
+        !arguments.version)
+      throw akmon::InputError("a parameter file is missing; see akmon --help");
+    return arguments;
+  }
+
+
+  void
+  run(const Arguments &arguments, const bool root)
+  {
+    if (arguments.help && root)
+      std::cout << usage;
+    else if (arguments.version && root)
+      std::cout << "akmon " AKMON_VERSION "\n";
+    else if (arguments.print_parameters && root)
+      akmon::Case::print_reference(std::cout);
+    if (arguments.file.empty())
+      return;
+    akmon::Simulation simulation(akmon::Case::read(arguments.file, arguments.overrides),
+                                 MPI_COMM_WORLD);
+    if (!arguments.validate)
+      simulation.run();
+    else if (root)
+      std::cout << arguments.file << " is valid\n";
+  }
+} // namespace
+
+
+int
+main(int argc, char **argv)
+{
+  const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  try
+  {
+    run(read_arguments(argc, argv), root);
+  }
+  catch (const std::exception &error)
+  {
+    // Input and run errors are raised on all ranks alike: one of them speaks.
+    if (root)
+      std::cerr << "akmon: error: " << error.what() << std::endl;
+    return 1;
+  }
+  return 0;
+}

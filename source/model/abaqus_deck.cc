@@ -1,0 +1,177 @@
+#include <akmon/model/abaqus_deck.h>
+#include <akmon/parameters.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <stdexcept>
+
+namespace akmon
+{
+  namespace
+  {
+    std::string
+    upper_case(std::string text)
+    {
+      std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) {
+        return static_cast<char>(std::toupper(c));
+      });
+      return text;
+    }
+
+
+    bool
+    is_number(const std::string &text)
+    {
+      return !text.empty() && text.size() < 10 &&
+             std::all_of(text.begin(), text.end(), [](const unsigned char c) {
+               return std::isdigit(c) != 0;
+             });
+    }
+
+
+    long
+    number(const std::string &text)
+    {
+      if (!is_number(text))
+        throw std::runtime_error("'" + text + "' stands where a number is expected");
+      return std::stol(text);
+    }
+  } // namespace
+
+
+  AbaqusDeck::AbaqusDeck(std::istream &stream)
+  {
+    std::string keyword;
+    for (std::string line; std::getline(stream, line);)
+    {
+      line = upper_case(dealii::Utilities::trim(line));
+      if (line.empty() || line.compare(0, 2, "**") == 0)
+        continue;
+      if (line[0] != '*')
+      {
+        read_data(keyword, line);
+        continue;
+      }
+      const auto entries = split_list(line);
+      keyword            = entries[0];
+      options.clear();
+      for (const auto &entry : entries)
+      {
+        const auto equals                                         = entry.find('=');
+        options[dealii::Utilities::trim(entry.substr(0, equals))] = equals == std::string::npos
+                                                                      ? ""
+                                                                      : dealii::Utilities::trim(
+                                                                          entry.substr(equals + 1));
+      }
+    }
+    if (positions.empty() && n_others == 0)
+      throw std::runtime_error("there are no elements");
+  }
+
+
+  std::size_t
+  AbaqusDeck::n_other_elements() const
+  {
+    return n_others;
+  }
+
+
+  std::string
+  AbaqusDeck::other_elements() const
+  {
+    return other_type == "C3D4" || other_type == "C3D10" ? "tetrahedra"
+                                                         : "elements of type " + other_type;
+  }
+
+
+  std::string
+  AbaqusDeck::extract() const
+  {
+    return "*NODE\n" + nodes + "*ELEMENT, TYPE=C3D8\n" + elements + surfaces;
+  }
+
+
+  void
+  AbaqusDeck::read_data(const std::string &keyword, const std::string &line)
+  {
+    if (keyword == "*NODE")
+      nodes += line + "\n";
+    else if (keyword == "*ELEMENT")
+      read_element(line);
+    else if (keyword == "*ELSET")
+      read_set(options["ELSET"], line, options.count("GENERATE") == 1);
+    else if (keyword == "*SURFACE" && options["TYPE"] != "NODE")
+      read_surface(options["NAME"], line);
+  }
+
+
+  void
+  AbaqusDeck::read_element(const std::string &line)
+  {
+    static const std::set<std::string> hexahedra = {"C3D8", "C3D8R", "C3D8I", "C3D8H", "C3D8RH"};
+    if (hexahedra.count(options["TYPE"]) == 0)
+    {
+      ++n_others;
+      other_type = options["TYPE"];
+      return;
+    }
+    const auto entries = split_list(line);
+    const long element = number(entries[0]);
+    if (entries.size() != 9)
+      throw std::runtime_error("element " + entries[0] + " does not have eight nodes on its line");
+    if (!positions.emplace(element, positions.size() + 1).second)
+      throw std::runtime_error("element " + entries[0] + " is there twice");
+    sets[options["ELSET"]].push_back(element);
+    elements += line + "\n";
+  }
+
+
+  void
+  AbaqusDeck::read_set(const std::string &name, const std::string &line, const bool generate)
+  {
+    const auto entries = split_list(line);
+    auto &set          = sets[name];
+    if (generate && entries.size() >= 2)
+    {
+      const long step = entries.size() > 2 ? std::max(1l, number(entries[2])) : 1;
+      for (long i = number(entries[0]); i <= number(entries[1]); i += step)
+        set.push_back(i);
+      return;
+    }
+    for (const auto &entry : entries)
+      if (const auto other = sets.find(entry); other != sets.end() && entry != name)
+        set.insert(set.end(), other->second.begin(), other->second.end());
+      else
+        set.push_back(number(entry));
+  }
+
+
+  void
+  AbaqusDeck::read_surface(const std::string &name, const std::string &line)
+  {
+    const auto digits = name.find_last_not_of("0123456789") + 1;
+    if (!is_number(name.substr(digits)))
+      throw std::runtime_error("surface '" + name +
+                               "' must have a name that ends in a number, its boundary id");
+    const auto entries = split_list(line);
+    if (entries.size() != 2 || entries[1].size() != 2 || entries[1][0] != 'S' ||
+        entries[1][1] < '1' || entries[1][1] > '6')
+      throw std::runtime_error("surface '" + name +
+                               "' must list elements or their sets with a face from S1 to S6");
+
+    const auto set = sets.find(entries[0]);
+    surfaces += "*SURFACE, NAME=SS" + name.substr(digits) + "\n";
+    for (const long element :
+         set != sets.end() ? set->second : std::vector<long>(1, number(entries[0])))
+    {
+      const auto position = positions.find(element);
+      if (position == positions.end())
+        throw std::runtime_error("surface '" + name + "' names the absent element " +
+                                 std::to_string(element));
+      surfaces += std::to_string(position->second) + ", " + entries[1] + "\n";
+    }
+  }
+} // namespace akmon

@@ -1,0 +1,234 @@
+#include <akmon/model/mesh_description.h>
+#include <akmon/model/mesh_shapes.h>
+#include <akmon/model/o_grid.h>
+#include <akmon/parameters.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/grid/grid_generator.h>
+
+#include <cmath>
+
+namespace akmon
+{
+  namespace
+  {
+    using Face = dealii::Triangulation<3>::face_iterator;
+
+    const dealii::Patterns::Double non_negative(0);
+    const dealii::Patterns::Integer one_or_more(1);
+
+
+    /// Whether all vertices of the face have exactly this coordinate.
+    bool
+    on_plane(const Face &face, const unsigned int direction, const double coordinate)
+    {
+      for (const unsigned int v : face->vertex_indices())
+        if (face->vertex(v)[direction] != coordinate)
+          return false;
+      return true;
+    }
+
+
+    template <typename Classify>
+    void
+    set_boundary_ids(dealii::Triangulation<3> &triangulation, const Classify &classify)
+    {
+      for (const auto &face : triangulation.active_face_iterators())
+        if (face->at_boundary())
+          face->set_boundary_id(classify(face));
+    }
+
+
+    /// Coordinates of n + 1 slices from 0 to exactly `length`; cell lengths grow geometrically by
+    /// `grading`.
+    std::vector<double>
+    slices(const double length, const unsigned int n, const double grading)
+    {
+      std::vector<double> coordinates = {0.};
+      const double growth             = n > 1 ? std::pow(grading, 1. / (n - 1)) : 1.;
+      for (unsigned int i = 0; i < n; ++i)
+        coordinates.push_back(coordinates.back() + std::pow(growth, i));
+      const double sum = coordinates.back();
+      for (double &z : coordinates)
+        z *= length / sum;
+      coordinates.back() = length;
+      return coordinates;
+    }
+
+
+    const CurvedSurface around_z_axis = {CurvedSurface::Kind::cylinder,
+                                         dealii::Point<3>(),
+                                         dealii::Point<3>(0, 0, 1)};
+  } // namespace
+
+
+  void
+  CylinderShape::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Radius",
+                      "1",
+                      non_negative,
+                      "Radius R of the cylinder about the z axis [length].");
+    prm.declare_entry("Length",
+                      "1",
+                      non_negative,
+                      "Length L of the cylinder, from z = 0 to z = L [length].");
+    prm.declare_entry(
+      "Cells across",
+      "4",
+      one_or_more,
+      "Number of cells along a side of the core square of the full disc [-]; even for a half "
+      "or quarter.");
+    prm.declare_entry("Cells radial",
+                      "2",
+                      one_or_more,
+                      "Number of layers of cells from core to rim [-].");
+    prm.declare_entry("Cells axial", "4", one_or_more, "Number of cells along the length [-].");
+    prm.declare_entry(
+      "Sector",
+      "full",
+      dealii::Patterns::Selection("full|half|quarter"),
+      "The sector that is meshed: half keeps x >= 0 with the plane of symmetry x-, quarter "
+      "keeps x >= 0 and y >= 0 with x- and y-.");
+    prm.declare_entry(
+      "Axial grading",
+      "1",
+      non_negative,
+      "Ratio of the length of the last cell (at z = L) to that of the first (at z = 0) [-].");
+  }
+
+
+  void
+  CylinderShape::parse(dealii::ParameterHandler &prm, const std::string &section)
+  {
+    radius        = get_positive(prm, section, "Radius");
+    length        = get_positive(prm, section, "Length");
+    cells_across  = prm.get_integer("Cells across");
+    cells_radial  = prm.get_integer("Cells radial");
+    cells_axial   = prm.get_integer("Cells axial");
+    axial_grading = get_positive(prm, section, "Axial grading");
+
+    const std::string chosen = prm.get("Sector");
+    sector = chosen == "full" ? Sector::full : chosen == "half" ? Sector::half : Sector::quarter;
+    if (sector != Sector::full && cells_across % 2 != 0)
+      throw InputError(section,
+                       "Cells across",
+                       prm.get("Cells across"),
+                       "allowed are even numbers for Sector = " + chosen);
+  }
+
+
+  BodyMesh
+  CylinderShape::make(const std::string &) const
+  {
+    dealii::Triangulation<2> disc;
+    OGrid<2>(radius, cells_across, cells_radial).create(disc, [&](const dealii::Point<2> &x) {
+      return (sector == Sector::full || x[0] > 0) && (sector != Sector::quarter || x[1] > 0);
+    });
+    dealii::Triangulation<3> triangulation;
+    dealii::GridGenerator::extrude_triangulation(disc,
+                                                 slices(length, cells_axial, axial_grading),
+                                                 triangulation);
+
+    std::vector<std::string> names = {"side", "bottom", "top"};
+    if (sector != Sector::full)
+      names.push_back("x-");
+    if (sector == Sector::quarter)
+      names.push_back("y-");
+    // Coordinates in these planes are exact (see OGrid and slices).
+    set_boundary_ids(triangulation, [&](const Face &face) {
+      return on_plane(face, 2, 0)        ? 1
+             : on_plane(face, 2, length) ? 2
+             : on_plane(face, 0, 0)      ? 3
+             : on_plane(face, 1, 0)      ? 4
+                                         : 0;
+    });
+    BodyMesh mesh = describe_mesh(triangulation, names);
+    mesh.curved.emplace(0, around_z_axis);
+    return mesh;
+  }
+
+
+  void
+  HollowCylinderShape::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Inner radius",
+                      "0.5",
+                      non_negative,
+                      "Inner radius Ri, about the z axis [length].");
+    prm.declare_entry("Outer radius",
+                      "1",
+                      non_negative,
+                      "Outer radius Ro, above the inner one [length].");
+    prm.declare_entry("Length",
+                      "1",
+                      non_negative,
+                      "Length L of the cylinder, from z = 0 to z = L [length].");
+    prm.declare_entry("Cells radial", "2", one_or_more, "Number of cells across the wall [-].");
+    prm.declare_entry("Cells around",
+                      "16",
+                      dealii::Patterns::Integer(3),
+                      "Number of cells around the circumference [-].");
+    prm.declare_entry("Cells axial", "4", one_or_more, "Number of cells along the length [-].");
+  }
+
+
+  void
+  HollowCylinderShape::parse(dealii::ParameterHandler &prm, const std::string &section)
+  {
+    inner_radius = get_positive(prm, section, "Inner radius");
+    outer_radius = get_positive(prm, section, "Outer radius");
+    length       = get_positive(prm, section, "Length");
+    cells_radial = prm.get_integer("Cells radial");
+    cells_around = prm.get_integer("Cells around");
+    cells_axial  = prm.get_integer("Cells axial");
+    if (inner_radius >= outer_radius)
+      throw InputError(section,
+                       "Inner radius",
+                       prm.get("Inner radius"),
+                       "allowed are numbers below Outer radius = " + prm.get("Outer radius"));
+  }
+
+
+  BodyMesh
+  HollowCylinderShape::make(const std::string &) const
+  {
+    // deal.II's own rings take either the number of cells around or across, not both.
+    std::vector<dealii::Point<2>> vertices;
+    std::vector<dealii::CellData<2>> cells;
+    for (unsigned int j = 0; j < cells_around; ++j)
+      for (unsigned int i = 0; i <= cells_radial; ++i)
+      {
+        const double angle = 2 * dealii::numbers::PI * j / cells_around;
+        const double t     = static_cast<double>(i) / cells_radial;
+        const double r     = (1 - t) * inner_radius + t * outer_radius;
+        vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
+        if (i == cells_radial)
+          continue;
+        const unsigned int here = j * (cells_radial + 1) + i;
+        const unsigned int next = (j + 1) % cells_around * (cells_radial + 1) + i;
+        dealii::CellData<2> cell;
+        cell.vertices = {here, here + 1, next, next + 1};
+        cells.push_back(cell);
+      }
+    dealii::Triangulation<2> ring;
+    ring.create_triangulation(vertices, cells, dealii::SubCellData());
+    dealii::Triangulation<3> triangulation;
+    dealii::GridGenerator::extrude_triangulation(ring,
+                                                 slices(length, cells_axial, 1),
+                                                 triangulation);
+
+    const double middle = 0.5 * (inner_radius + outer_radius);
+    set_boundary_ids(triangulation, [&](const Face &face) {
+      return on_plane(face, 2, 0)                                          ? 2
+             : on_plane(face, 2, length)                                   ? 3
+             : std::hypot(face->vertex(0)[0], face->vertex(0)[1]) < middle ? 0
+                                                                           : 1;
+    });
+    BodyMesh mesh = describe_mesh(triangulation, {"inner", "outer", "bottom", "top"});
+    mesh.curved.emplace(0, around_z_axis);
+    mesh.curved.emplace(1, around_z_axis);
+    return mesh;
+  }
+} // namespace akmon

@@ -1,0 +1,212 @@
+#include <akmon/output/fields.h>
+
+#include <deal.II/fe/mapping_q1.h>
+#include <deal.II/fe/mapping_q1_eulerian.h>
+#include <deal.II/numerics/data_out.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // The mean Cauchy stress of each cell as a tensor field.
+    class StressField : public DataPostprocessorTensor<3>
+    {
+    public:
+      explicit StressField(const std::vector<Symmetric3<double>> &stresses)
+        : DataPostprocessorTensor<3>("cauchy_stress", update_values), stresses(stresses)
+      {
+      }
+
+      void
+      evaluate_vector_field(const DataPostprocessorInputs::Vector<3> &inputs,
+                            std::vector<Vector<double>> &computed) const override
+      {
+        const auto &s = stresses[inputs.get_cell<3>()->active_cell_index()];
+        for (auto &values : computed)
+        {
+          const double full[3][3] = {{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}};
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              values[Tensor<2, 3>::component_to_unrolled_index(TableIndices<2>(i, j))] = full[i][j];
+        }
+      }
+
+    private:
+      const std::vector<Symmetric3<double>> &stresses;
+    };
+
+
+    const std::vector<DataComponentInterpretation::DataComponentInterpretation> as_vector(
+      3,
+      DataComponentInterpretation::component_is_part_of_vector);
+  } // namespace
+
+
+  CellAverage
+  average_over_cell(const CellBatches &batches, const std::size_t cell_of_body)
+  {
+    CellAverage average{{{0., 0., 0., 0., 0., 0.}}, 0.};
+    const double *const state = batches.state_at(cell_of_body / n_lanes) + cell_of_body % n_lanes;
+    for (unsigned int q = 0; q < CellBatches::n_points; ++q)
+    {
+      const double *const point = state + std::size_t(q) * batches.n_components * n_lanes;
+      for (unsigned int c = 0; c < 6; ++c)
+        average.stress[c] += point[c * n_lanes] / CellBatches::n_points;
+      if (batches.n_components > 6)
+        average.plastic_strain += point[6 * n_lanes] / CellBatches::n_points;
+    }
+    return average;
+  }
+
+
+  Fields::Fields(const std::string &directory,
+                 const Discretization &discretization,
+                 const InternalForces &internal_forces,
+                 const Contact &contact,
+                 const Fidcd &integrator,
+                 const bool deformed)
+    : directory(directory), discretization(discretization), internal_forces(internal_forces),
+      contact(contact), integrator(integrator), deformed(deformed),
+      series(directory + "/fields.pvd", discretization.communicator())
+  {
+  }
+
+
+  void
+  Fields::write(const NodalState &state)
+  {
+    const auto &triangulation = discretization.triangulation;
+    const auto &dof_handler   = discretization.dof_handler;
+    NodalVector displacement  = state.x;
+    displacement -= discretization.reference;
+    NodalVector velocity = nodal_velocity(), scalars = contact_scalars(state),
+                traction = contact_traction(state);
+    for (NodalVector *const vector : {&displacement, &velocity, &scalars, &traction})
+      vector->update_ghost_values();
+
+    const unsigned int n = triangulation.n_active_cells();
+    std::vector<Symmetric3<double>> stresses(n, {{0., 0., 0., 0., 0., 0.}});
+    Vector<float> von_mises(n), plastic_strain(n), body(n), rank(n);
+    for (const auto &batches : internal_forces.batches())
+      for (std::size_t c = 0; c < batches.n_cells; ++c)
+      {
+        const auto &relevant = discretization.cells[batches.first_cell + c];
+        const auto i = DoFHandler<3>::active_cell_iterator(relevant.cell)->active_cell_index();
+        const auto average = average_over_cell(batches, c);
+        stresses[i]        = average.stress;
+        von_mises[i]       = std::sqrt(equivalent_stress_squared(average.stress));
+        plastic_strain[i]  = average.plastic_strain;
+        body[i]            = relevant.body;
+        rank[i]            = relevant.cell->subdomain_id();
+      }
+
+    const StressField stress_field(stresses);
+    DataOut<3> data_out;
+    DataOutBase::VtkFlags flags;
+    flags.time              = state.time;
+    flags.cycle             = state.step;
+    flags.compression_level = DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
+    data_out.set_flags(flags);
+    data_out.attach_dof_handler(dof_handler);
+    data_out.add_data_vector(dof_handler,
+                             displacement,
+                             std::vector<std::string>(3, "displacement"),
+                             as_vector);
+    data_out.add_data_vector(dof_handler,
+                             velocity,
+                             std::vector<std::string>(3, "velocity"),
+                             as_vector);
+    data_out.add_data_vector(dof_handler,
+                             traction,
+                             std::vector<std::string>(3, "contact_traction"),
+                             as_vector);
+    data_out.add_data_vector(dof_handler,
+                             scalars,
+                             std::vector<std::string>{"contact_pressure", "gap", "contact_status"});
+    data_out.add_data_vector(displacement, stress_field);
+    data_out.add_data_vector(von_mises, "von_mises", DataOut<3>::type_cell_data);
+    data_out.add_data_vector(plastic_strain, "plastic_strain", DataOut<3>::type_cell_data);
+    data_out.add_data_vector(body, "body", DataOut<3>::type_cell_data);
+    data_out.add_data_vector(rank, "rank", DataOut<3>::type_cell_data);
+    if (deformed)
+      data_out.build_patches(MappingQ1Eulerian<3, NodalVector>(dof_handler, displacement), 1);
+    else
+      data_out.build_patches(MappingQ1<3>(), 1);
+
+    char name[32];
+    std::snprintf(name, sizeof(name), "fields_%05u.vtu", n_written++);
+    data_out.write_vtu_in_parallel(directory + "/" + name, discretization.communicator());
+    series.add(state.time, name);
+  }
+
+
+  NodalVector
+  Fields::nodal_velocity() const
+  {
+    NodalVector velocity = discretization.make_vector();
+    for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
+    {
+      const auto v = integrator.velocity(node);
+      for (unsigned int d = 0; d < 3; ++d)
+        velocity.local_element(3 * node + d) = v[d];
+    }
+    return velocity;
+  }
+
+
+  // Quarter of the current areas of the contact faces around each owned node.
+  std::vector<double>
+  Fields::contact_areas(const NodalState &state) const
+  {
+    std::vector<double> areas(discretization.n_nodes, 0.);
+    for (const auto &face : contact.contact_faces())
+    {
+      Segment corners;
+      for (unsigned int k = 0; k < 4; ++k)
+        corners[k] = at_node(state.x, face.nodes[k]);
+      for (const unsigned int node : face.nodes)
+        areas[node] += 0.25 * area_vector(corners).norm();
+    }
+    return areas;
+  }
+
+
+  NodalVector
+  Fields::contact_scalars(const NodalState &state) const
+  {
+    NodalVector scalars = discretization.make_vector();
+    const auto areas    = contact_areas(state);
+    for (const auto &force : contact.nodal_forces())
+      scalars.local_element(3 * force.node) = force.normal.norm() / areas[force.node];
+    for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
+      scalars.local_element(3 * node + 1) = std::numeric_limits<double>::quiet_NaN();
+    for (const auto &pair : contact.get_pairs())
+    {
+      double &gap = scalars.local_element(3 * pair.slave + 1);
+      if (!(gap < pair.gap))
+        gap = pair.gap;
+      if (pair.normal_force > 0.)
+        scalars.local_element(3 * pair.slave + 2) = pair.sticks ? 2. : 1.;
+    }
+    return scalars;
+  }
+
+
+  NodalVector
+  Fields::contact_traction(const NodalState &state) const
+  {
+    NodalVector traction = discretization.make_vector();
+    const auto areas     = contact_areas(state);
+    for (const auto &force : contact.nodal_forces())
+      for (unsigned int d = 0; d < 3; ++d)
+        traction.local_element(3 * force.node + d) = (force.normal[d] + force.tangential[d]) /
+                                                     areas[force.node];
+    return traction;
+  }
+} // namespace akmon

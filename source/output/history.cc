@@ -1,0 +1,87 @@
+#include <akmon/output/directory.h>
+#include <akmon/output/history.h>
+
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <stdexcept>
+
+namespace akmon
+{
+  namespace
+  {
+    void
+    append(std::string &line, const std::string &entry)
+    {
+      if (!line.empty())
+        line += ',';
+      line += entry;
+    }
+  } // namespace
+
+
+  std::string
+  shortest_text(const double number)
+  {
+    std::array<char, 32> text; // the longest, "-2.2250738585072014e-308", takes 24
+    const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
+    return std::string(text.data(), end);
+  }
+
+
+  History::History(const std::string &path, const MPI_Comm comm) : path(path), comm(comm)
+  {
+  }
+
+
+  void
+  History::add_column(const std::string &name)
+  {
+    if (header_written)
+      throw std::logic_error("History: column '" + name + "' comes after the first row");
+    columns.push_back(name);
+  }
+
+
+  void
+  History::add_columns(const std::vector<std::string> &names)
+  {
+    for (const auto &name : names)
+      add_column(name);
+  }
+
+
+  void
+  History::write_row(const std::vector<double> &values)
+  {
+    if (values.size() != columns.size())
+      throw std::logic_error("History: " + std::to_string(values.size()) + " values for " +
+                             std::to_string(columns.size()) + " columns");
+    run_on_root(comm, [&]() {
+      if (!header_written)
+      {
+        std::string header;
+        for (const auto &name : columns)
+          append(header, name);
+        file.reset(std::fopen(path.c_str(), "wb"));
+        write_line(header);
+      }
+      std::string row;
+      for (const double value : values)
+        append(row, shortest_text(value));
+      write_line(row);
+    });
+    header_written = true;
+  }
+
+
+  void
+  History::write_line(const std::string &line)
+  {
+    // Flushed, so that a run that is watched or dies shows every row, and a full disk shows at
+    // once.
+    if (!file || std::fputs((line + '\n').c_str(), file.get()) < 0 || std::fflush(file.get()) != 0)
+      throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
+  }
+} // namespace akmon

@@ -1,0 +1,200 @@
+#include <akmon/output/monitor.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace akmon
+{
+  using namespace dealii;
+
+  Monitor::Monitor(const Case &parameters, const Watched &watched)
+    : parameters(parameters), watched(watched), field_tick(parameters.output.fields),
+      history_tick(parameters.output.history),
+      history(parameters.output_directory + "/history.csv", watched.discretization.communicator()),
+      fields(parameters.output_directory,
+             watched.discretization,
+             watched.internal_forces,
+             watched.contact,
+             watched.integrator,
+             parameters.output.deformed),
+      probes(parameters.probes, watched.discretization, watched.internal_forces, watched.integrator)
+  {
+    history.add_columns({"time",
+                         "dt",
+                         "kinetic_energy",
+                         "strain_energy",
+                         "plastic_dissipation",
+                         "damping_dissipation",
+                         "friction_dissipation",
+                         "impact_dissipation",
+                         "external_work",
+                         "energy_error",
+                         "momentum_x",
+                         "momentum_y",
+                         "momentum_z",
+                         "angular_momentum_x",
+                         "angular_momentum_y",
+                         "angular_momentum_z",
+                         "max_penetration",
+                         "max_penetration_rel",
+                         "active_pairs",
+                         "sticking_pairs"});
+    for (const auto &name : watched.contact.names())
+      for (const char *const axis : {"x", "y", "z"})
+        history.add_column(name + ".force_" + axis);
+    history.add_columns(probes.columns());
+  }
+
+
+  void
+  Monitor::observe(const bool last)
+  {
+    level_written = false;
+    account_work();
+    report               = watched.contact.report(watched.state);
+    penetration          = std::max(penetration, report.max_penetration);
+    penetration_relative = std::max(penetration_relative, report.max_penetration_relative);
+
+    const bool fields_due  = field_tick.due(watched.state.time, watched.state.step);
+    const bool history_due = history_tick.due(watched.state.time, watched.state.step);
+    if (history_due || last || watched.state.step == 0)
+    {
+      sum_energies();
+      write_row();
+    }
+    if (fields_due || last || watched.state.step == 0)
+      write_fields();
+    if (history_due || last)
+      check_energy();
+  }
+
+
+  void
+  Monitor::write_fields()
+  {
+    if (!level_written)
+      fields.write(watched.state);
+    level_written = true;
+  }
+
+
+  void
+  Monitor::account_work()
+  {
+    const auto &dx = watched.state.dx, &dx_next = watched.state.dx_next;
+    const auto add = [&](WorkLine &line, const auto &work) {
+      if (watched.state.step == 0)
+        line.add_start(work(dx), work(dx_next));
+      else
+        line.add_level(work(dx), work(dx_next));
+    };
+    add(external, [&](const NodalVector &increment) {
+      return watched.external_forces.work(increment) + watched.conditions.reaction_work(increment);
+    });
+    add(damping,
+        [&](const NodalVector &increment) { return -watched.integrator.damping_work(increment); });
+    add(impact,
+        [&](const NodalVector &increment) { return -watched.contact.work(increment).normal; });
+    add(friction,
+        [&](const NodalVector &increment) { return -watched.contact.work(increment).tangential; });
+  }
+
+
+  void
+  Monitor::sum_energies()
+  {
+    const std::array<double, 7> local = {{watched.integrator.kinetic_energy(),
+                                          watched.internal_forces.internal_work(),
+                                          watched.internal_forces.plastic_work(),
+                                          damping.value(),
+                                          friction.value(),
+                                          impact.value(),
+                                          external.value()}};
+    std::array<double, 7> all;
+    Utilities::MPI::sum(ArrayView<const double>(local.data(), local.size()),
+                        watched.discretization.communicator(),
+                        ArrayView<double>(all.data(), all.size()));
+    balance.kinetic              = all[0];
+    balance.strain               = all[1] - all[2];
+    balance.plastic_dissipation  = all[2];
+    balance.damping_dissipation  = all[3];
+    balance.friction_dissipation = all[4];
+    balance.impact_dissipation   = all[5];
+    balance.external_work        = all[6];
+    if (watched.state.step == 0)
+      initial_energy = balance.sum();
+    largest_energy = std::max({largest_energy, balance.kinetic, std::abs(balance.external_work)});
+    const double error = largest_energy > 0. ? (balance.sum() - initial_energy) / largest_energy
+                                             : 0.;
+    if (!(std::abs(error) <= std::abs(worst.energy_error)))
+      worst.energy_error = error;
+  }
+
+
+  // Linear momentum sum m v_n and angular momentum about the origin, sum m x_n x v_n.
+  std::vector<double>
+  Monitor::momenta() const
+  {
+    Tensor<1, 3> linear, angular;
+    for (unsigned int node = 0; node < watched.discretization.n_owned_nodes; ++node)
+    {
+      const auto momentum = watched.discretization.mass[node] * watched.integrator.velocity(node);
+      linear += momentum;
+      angular += cross_product_3d(at_node(watched.state.x, node), momentum);
+    }
+    linear  = Utilities::MPI::sum(linear, watched.discretization.communicator());
+    angular = Utilities::MPI::sum(angular, watched.discretization.communicator());
+    return {linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]};
+  }
+
+
+  void
+  Monitor::write_row()
+  {
+    const MPI_Comm communicator = watched.discretization.communicator();
+    const double error = largest_energy > 0. ? (balance.sum() - initial_energy) / largest_energy
+                                             : 0.;
+    std::vector<double> row = {watched.state.time,
+                               watched.state.dt_next,
+                               balance.kinetic,
+                               balance.strain,
+                               balance.plastic_dissipation,
+                               balance.damping_dissipation,
+                               balance.friction_dissipation,
+                               balance.impact_dissipation,
+                               balance.external_work,
+                               error};
+    const auto append       = [&](const std::vector<double> &values) {
+      row.insert(row.end(), values.begin(), values.end());
+    };
+    append(momenta());
+    append({Utilities::MPI::max(penetration, communicator),
+            Utilities::MPI::max(penetration_relative, communicator)});
+    worst.penetration          = std::max(worst.penetration, row[row.size() - 2]);
+    worst.penetration_relative = std::max(worst.penetration_relative, row[row.size() - 1]);
+    penetration = penetration_relative = 0.;
+
+    std::vector<double> sums = {double(report.active_pairs), double(report.sticking_pairs)};
+    for (const auto &force : report.forces)
+      for (unsigned int d = 0; d < 3; ++d)
+        sums.push_back(force[d]);
+    Utilities::MPI::sum(sums, communicator, sums);
+    append(sums);
+    append(probes.values(watched.state));
+    history.write_row(row);
+  }
+
+
+  void
+  Monitor::check_energy() const
+  {
+    if (!(std::abs(worst.energy_error) <= parameters.output.energy_error_bound))
+      throw RunError("step " + std::to_string(watched.state.step) + ", time " +
+                     shortest_text(watched.state.time) + ": energy error " +
+                     shortest_text(worst.energy_error) + " is beyond the bound " +
+                     shortest_text(parameters.output.energy_error_bound) +
+                     " ([Output] Energy error bound)");
+  }
+} // namespace akmon

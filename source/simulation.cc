@@ -1,0 +1,283 @@
+#include <akmon/output/directory.h>
+#include <akmon/output/summary.h>
+#include <akmon/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace akmon
+{
+  using namespace dealii;
+
+  Simulation::Stages::Stages(StageTimer &timer)
+    : predict(timer.add("integrator.predict")), search(timer.add("contact.search")),
+      forces(timer.add("forces.update")), time_step(timer.add("time_step.choose")),
+      free_increment(timer.add("integrator.free_increment")),
+      normal(timer.add("contact.resolve_normal")), friction(timer.add("contact.resolve_friction")),
+      correct(timer.add("integrator.correct")), observe(timer.add("monitor.observe"))
+  {
+  }
+
+
+  Simulation::Simulation(const Case &parameters, MPI_Comm communicator, const bool quiet)
+    : parameters(parameters), communicator(communicator), screen(communicator, quiet),
+      discretization(parameters.bodies, parameters.materials, communicator), state(discretization),
+      conditions(discretization, this->parameters.prescribed_motions),
+      external_forces(discretization, this->parameters.surface_loads, this->parameters.body_force),
+      internal_forces(discretization),
+      contact(discretization, this->parameters.contacts, this->parameters.planes, conditions),
+      integrator(discretization, state, parameters.body_force.damping),
+      n_cells(discretization.triangulation.n_global_active_cells()), stages(timer)
+  {
+    // The probes are the only part of the output that the input can make fail.
+    Probes(parameters.probes, discretization, internal_forces, integrator);
+    contact.search(state);
+    contact.refuse_initial_overlap(state);
+  }
+
+
+  void
+  Simulation::run()
+  {
+    prepare_output_directory(parameters.output_directory, communicator);
+    run_on_root(communicator, [&]() {
+      replace_file(parameters.output_directory + "/parameters.prm", parameters.as_used);
+    });
+    monitor    = std::make_unique<Monitor>(parameters,
+                                        Monitor::Watched{discretization,
+                                                         state,
+                                                         integrator,
+                                                         internal_forces,
+                                                         external_forces,
+                                                         conditions,
+                                                         contact});
+    wall_start = std::chrono::steady_clock::now();
+    try
+    {
+      start();
+      while (!parameters.time.finished(state.time))
+        step();
+    }
+    catch (const RunError &)
+    {
+      monitor->write_fields();
+      stop();
+      throw;
+    }
+    stop();
+  }
+
+
+  void
+  Simulation::initial_velocity()
+  {
+    velocity_0 = discretization.make_vector();
+    for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
+    {
+      const unsigned int body_index = discretization.body_of_node[node];
+      const Body &body              = discretization.get_bodies()[body_index];
+      const auto arm                = at_node(discretization.reference, node) -
+                       discretization.centre_of(body_index);
+      const auto v = body.velocity + cross_product_3d(body.spin, arm);
+      for (unsigned int d = 0; d < 3; ++d)
+        velocity_0.local_element(3 * node + d) = v[d];
+    }
+    conditions.adjust_initial_velocity(velocity_0);
+  }
+
+
+  // The starting step (28)(29), with contact.
+  void
+  Simulation::start()
+  {
+    initial_velocity();
+    state.force = 0.;
+    external_forces.add(state, state.force); // the initial stress is zero
+    choose_step();
+    print_header();
+    integrator.start(velocity_0, state.dt_next);
+    const double c = integrator.effective_mass_factor();
+    conditions.clear_reactions();
+    conditions.apply(state, c);
+    contact.search(state);
+    contact.resolve_normal(state, c);
+    contact.resolve_friction(state, c);
+    contact.add_increments(state, c);
+    conditions.apply(state, c);
+    integrator.finish_start(velocity_0);
+    velocity_0.reinit(0);
+    monitor->observe(false);
+  }
+
+
+  // Algorithm 1 of the paper; its t_n + dt is the level state.time after predict().
+  void
+  Simulation::step()
+  {
+    {
+      const StageTimer::Scope timing(stages.predict); // 1
+      integrator.predict();
+    }
+    {
+      const StageTimer::Scope timing(stages.search); // 2
+      contact.search(state);
+    }
+    {
+      const StageTimer::Scope timing(stages.forces); // 3
+      state.force = 0.;
+      internal_forces.update(state.x, state.dx, state.force);
+      external_forces.add(state, state.force);
+    }
+    {
+      const StageTimer::Scope timing(stages.time_step);
+      check_cells();
+      choose_step();
+    }
+    {
+      const StageTimer::Scope timing(stages.free_increment); // 4
+      integrator.free_increment();
+      conditions.clear_reactions();
+      conditions.apply(state, integrator.effective_mass_factor());
+    }
+    {
+      const StageTimer::Scope timing(stages.normal); // 5
+      contact.resolve_normal(state, integrator.effective_mass_factor());
+    }
+    {
+      const StageTimer::Scope timing(stages.friction); // 6
+      contact.resolve_friction(state, integrator.effective_mass_factor());
+    }
+    {
+      const StageTimer::Scope timing(stages.correct); // 7, 8
+      contact.add_increments(state, integrator.effective_mass_factor());
+      conditions.apply(state, integrator.effective_mass_factor());
+    }
+    {
+      const StageTimer::Scope timing(stages.observe); // 9
+      monitor->observe(parameters.time.finished(state.time));
+    }
+    show_progress();
+  }
+
+
+  void
+  Simulation::choose_step()
+  {
+    const double omega_squared = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
+                                                     communicator);
+    state.dt_next              = parameters.time.choose(state.time, omega_squared);
+  }
+
+
+  // A rank that met an inverted or non-finite cell stops them all.
+  void
+  Simulation::check_cells()
+  {
+    const auto &fault   = internal_forces.fault();
+    std::string message = !fault.occurred()
+                            ? ""
+                            : "step " + std::to_string(state.step) + ", time " +
+                                shortest_text(state.time) + ": cell " + std::to_string(fault.cell) +
+                                " of body '" + fault.body +
+                                "' is inverted or not a number, near (" +
+                                shortest_text(fault.place[0]) + ", " +
+                                shortest_text(fault.place[1]) + ", " +
+                                shortest_text(fault.place[2]) + ")";
+    if (Utilities::MPI::max(int(fault.occurred()), communicator) == 0)
+      return;
+    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, message))
+      if (!of_rank.empty())
+        throw RunError(of_rank);
+  }
+
+
+  void
+  Simulation::print_header()
+  {
+    const double critical = 2. / std::sqrt(
+                                   Utilities::MPI::max(internal_forces.largest_frequency_squared(),
+                                                       communicator));
+    // The rank whose cell limits the step says where that is.
+    std::string limit;
+    if (2. / std::sqrt(internal_forces.largest_frequency_squared()) == critical &&
+        !discretization.cells.empty())
+    {
+      const auto &cell = discretization.cells[internal_forces.limiting_cell()];
+      const auto place = cell.cell->center();
+      limit = "cell " + std::to_string(cell.id) + " of '" + parameters.bodies[cell.body].name +
+              "' at (" + shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
+              shortest_text(place[2]) + ")";
+    }
+    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, limit))
+      if (limit.empty())
+        limit = of_rank;
+
+    std::string bodies;
+    for (const auto &body : parameters.bodies)
+      bodies += (bodies.empty() ? "" : ", ") + body.name;
+    screen.header(
+      {{"case", parameters.title},
+       {"bodies", bodies},
+       {"cells", std::to_string(n_cells)},
+       {"nodes", std::to_string(discretization.dof_handler.n_dofs() / 3)},
+       {"ranks", std::to_string(Utilities::MPI::n_mpi_processes(communicator))},
+       {"SIMD lanes", std::to_string(n_lanes)},
+       {"time step",
+        shortest_text(state.dt_next) + ", " +
+          shortest_text(std::round(state.dt_next / critical * 1e4) * 1e-2) + " % of critical" +
+          (parameters.time.automatic() ? " (automatic)" : " (fixed)")},
+       {"limited by", limit},
+       {"end", shortest_text(parameters.time.end)},
+       {"output", parameters.output_directory}});
+    if (state.dt_next > critical)
+      screen.warning("the time step is above the critical step " + shortest_text(critical) +
+                     " of the smallest cell");
+  }
+
+
+  void
+  Simulation::show_progress()
+  {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
+    Progress progress;
+    progress.time                  = state.time;
+    progress.end                   = parameters.time.end;
+    progress.dt                    = state.dt;
+    progress.step                  = state.step;
+    progress.active_pairs          = monitor->active_pairs();
+    progress.penetration_rel       = monitor->extremes().penetration_relative;
+    progress.energy_error          = monitor->extremes().energy_error;
+    progress.cell_steps_per_second = double(n_cells) * state.step / wall.count();
+    screen.progress(progress);
+  }
+
+
+  void
+  Simulation::stop()
+  {
+    const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
+    const auto totals                        = timer.totals(communicator);
+    screen.closing(totals, wall.count());
+
+    std::map<std::string, double> seconds;
+    for (const auto &total : totals)
+      seconds[total.name] = total.seconds;
+    const auto &extremes = monitor->extremes();
+    Summary summary;
+    summary.set("title", parameters.title);
+    summary.set("completed", parameters.time.finished(state.time));
+    summary.set("time", state.time);
+    summary.set("steps", state.step);
+    summary.set("cells", n_cells);
+    summary.set("ranks", Utilities::MPI::n_mpi_processes(communicator));
+    summary.set("wall_seconds", wall.count());
+    summary.set("cell_steps_per_second", double(n_cells) * state.step / wall.count());
+    summary.set("stage_seconds", seconds);
+    summary.set("max_penetration", extremes.penetration);
+    summary.set("max_penetration_rel", extremes.penetration_relative);
+    summary.set("energy_error", extremes.energy_error);
+    summary.set("warnings", screen.warnings());
+    summary.write(parameters.output_directory + "/summary.json", communicator);
+  }
+} // namespace akmon

@@ -1,0 +1,82 @@
+#include <akmon/parameters.h>
+#include <akmon/time/step_control.h>
+
+#include <cmath>
+
+namespace akmon
+{
+  namespace
+  {
+    // Sums of steps reach the end time up to rounding only.
+    constexpr double rounding = 1e-9;
+  } // namespace
+
+
+  void
+  StepControl::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("End",
+                      "0",
+                      dealii::Patterns::Double(0.),
+                      "Time at which the run ends (time)");
+    prm.declare_entry(
+      "Step",
+      "automatic",
+      dealii::Patterns::Anything(),
+      "Time step dt (time), or 'automatic': the safety factor times the critical step "
+      "2/omega_max, estimated anew every step");
+    prm.declare_entry("Safety factor",
+                      "0.9",
+                      dealii::Patterns::Double(0., 1.),
+                      "Automatic step over critical step (dimensionless)");
+  }
+
+
+  void
+  StepControl::parse(dealii::ParameterHandler &prm)
+  {
+    end           = prm.get_double("End");
+    safety_factor = prm.get_double("Safety factor");
+    if (!(end > 0.))
+      throw InputError("Time", "End", prm.get("End"), "allowed are positive numbers");
+    if (!(safety_factor > 0.))
+      throw InputError("Time",
+                       "Safety factor",
+                       prm.get("Safety factor"),
+                       "allowed are 0 < factor <= 1");
+    const std::string step = prm.get("Step");
+    if (step == "automatic")
+      return;
+    std::size_t used = 0;
+    try
+    {
+      fixed_step = std::stod(step, &used);
+    }
+    catch (const std::exception &)
+    {
+    }
+    if (used != step.size() || !(fixed_step > 0.) || !std::isfinite(fixed_step))
+      throw InputError("Time", "Step", step, "allowed are positive numbers or 'automatic'");
+  }
+
+
+  double
+  StepControl::choose(const double t, const double largest_frequency_squared) const
+  {
+    const double rest = end - t;
+    if (!automatic())
+      return rest > rounding * fixed_step && rest < fixed_step * (1. + rounding) ? rest
+                                                                                 : fixed_step;
+    const double step = safety_factor * 2. / std::sqrt(largest_frequency_squared);
+    if (rest <= rounding * step || rest >= 2. * step)
+      return step;
+    return rest > step ? 0.5 * rest : rest;
+  }
+
+
+  bool
+  StepControl::finished(const double t) const
+  {
+    return t >= end * (1. - 1e-12);
+  }
+} // namespace akmon
