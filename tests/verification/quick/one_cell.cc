@@ -1,0 +1,497 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <iostream>
+
+#include "support/run_case.h"
+
+// One cell driven through the program's own force pass: closed forms of the Truesdell rate
+// (references.md, section 8: E = 1000, nu = 0.25, lambda = mu = 400, M = 1200), lumped masses, free
+// flight and fall of the shipped case one_cell.
+
+using namespace akmon;
+using namespace akmon::test;
+
+namespace
+{
+  using Matrix = dealii::Tensor<2, 3>;
+  using Vector = dealii::Tensor<1, 3>;
+  using Path   = std::function<Matrix(double)>; // deformation gradient at 0 <= t <= 1
+
+  constexpr double pi = 3.14159265358979323846;
+
+
+  void
+  report(const std::string &name, const double value)
+  {
+    std::cout << "  " << name << " " << value << std::endl;
+  }
+
+
+  Body
+  body_of(const MeshParameters::Shape &shape, const CellIntegration integration)
+  {
+    Body body;
+    body.name        = "cell";
+    body.mesh.shape  = shape;
+    body.rotation    = dealii::unit_symmetric_tensor<3>();
+    body.material    = "elastic";
+    body.integration = integration;
+    return body;
+  }
+
+
+  BoxShape
+  box(const Vector &size)
+  {
+    BoxShape shape;
+    shape.size  = size;
+    shape.cells = {{1, 1, 1}};
+    return shape;
+  }
+
+
+  Material
+  elastic(const double density = 1.)
+  {
+    Material material;
+    material.name    = "elastic";
+    material.density = density;
+    material.law     = Hypoelastic{Elasticity::from_young(1000., .25)};
+    return material;
+  }
+
+
+  // A brick whose nodes are led along x = F(t) X.
+  class DrivenCell
+  {
+  public:
+    explicit DrivenCell(const CellIntegration integration)
+      : discretization({body_of(box(Vector({1., .8, .6})), integration)},
+                       {elastic()},
+                       MPI_COMM_SELF),
+        forces(discretization), x(discretization.reference), dx(discretization.make_vector()),
+        force(discretization.make_vector())
+    {
+    }
+
+    void
+    go_to(const Matrix &F)
+    {
+      for (unsigned int node = 0; node < 8; ++node)
+      {
+        const Vector target = F * at_node(discretization.reference, node);
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          dx.local_element(3 * node + d) = target[d] - x.local_element(3 * node + d);
+          x.local_element(3 * node + d)  = target[d];
+        }
+      }
+      force = 0.;
+      forces.update(x, dx, force);
+      EXPECT_FALSE(forces.fault().occurred());
+    }
+
+    void
+    follow(const Path &path, const unsigned int n_steps)
+    {
+      for (unsigned int step = 1; step <= n_steps; ++step)
+        go_to(path(double(step) / n_steps));
+    }
+
+    Matrix
+    stress(const unsigned int q) const
+    {
+      static constexpr unsigned int row[] = {0, 1, 2, 0, 0, 1}, column[] = {0, 1, 2, 1, 2, 2};
+      const auto &batches          = forces.batches()[0];
+      const double *const at_point = batches.state_at(0) + q * batches.n_components * n_lanes;
+      Matrix sigma;
+      for (unsigned int c = 0; c < 6; ++c)
+        sigma[row[c]][column[c]] = sigma[column[c]][row[c]] = at_point[c * n_lanes];
+      return sigma;
+    }
+
+    // Largest difference at any Gauss point from a stress.
+    double
+    error(const Matrix &expected) const
+    {
+      double worst = 0.;
+      for (unsigned int q = 0; q < 8; ++q)
+        worst = std::max(worst, (stress(q) - expected).norm());
+      return worst;
+    }
+
+    // Force on a node that the stress of a cell with homogeneous deformation F makes:
+    // f_a = - sigma J F^{-T} int dN_a/dX dV, the integral being +-(A_x, A_y, A_z)/4 of the brick.
+    Vector
+    nodal_force(const unsigned int node, const Matrix &F, const Matrix &sigma) const
+    {
+      const Vector X = at_node(discretization.reference, node);
+      const Vector area(
+        {std::copysign(.12, X[0]), std::copysign(.15, X[1]), std::copysign(.2, X[2])});
+      return -determinant(F) * (sigma * (transpose(invert(F)) * area));
+    }
+
+    Discretization discretization;
+    InternalForces forces;
+    NodalVector x, dx, force;
+  };
+
+
+  Matrix
+  diagonal(const double a, const double b, const double c)
+  {
+    return Matrix({{a, 0., 0.}, {0., b, 0.}, {0., 0., c}});
+  }
+
+
+  Matrix
+  shear(const double g)
+  {
+    return Matrix({{1., g, 0.}, {0., 1., 0.}, {0., 0., 1.}});
+  }
+
+
+  // Rodrigues' formula about (1, 2, 2)/3.
+  Matrix
+  rotation(const double angle)
+  {
+    const Vector n({1. / 3., 2. / 3., 2. / 3.});
+    const Matrix K({{0., -n[2], n[1]}, {n[2], 0., -n[0]}, {-n[1], n[0], 0.}});
+    return diagonal(1., 1., 1.) + std::sin(angle) * K + (1. - std::cos(angle)) * (K * K);
+  }
+
+
+  class OneCell : public testing::TestWithParam<CellIntegration>
+  {
+  };
+
+  INSTANTIATE_TEST_SUITE_P(Integrations,
+                           OneCell,
+                           testing::Values(CellIntegration::full,
+                                           CellIntegration::mean_dilatation));
+
+
+  TEST_P(OneCell, StressTurnsWithARigidRotation)
+  {
+    // Each step is a finite rotation about an oblique axis, by 1 to 120 degrees.
+    for (const double degrees : {1., 10., 45., 120.})
+    {
+      DrivenCell cell(GetParam());
+      const Matrix F({{1.1, .2, -.05}, {.03, .9, .1}, {-.02, .04, 1.05}});
+      cell.go_to(F);
+      const Matrix sigma = cell.stress(0);
+      ASSERT_GT(sigma.norm(), 50.);
+      EXPECT_LE(cell.error(sigma), 1e-12 * sigma.norm());
+      const double work = cell.forces.internal_work();
+      for (unsigned int step = 1; step <= 12; ++step)
+      {
+        const Matrix R = rotation(step * degrees * pi / 180.);
+        cell.go_to(R * F);
+        const Matrix turned = R * sigma * transpose(R);
+        ASSERT_LE(cell.error(turned), 1e-12 * sigma.norm()) << degrees << " " << step;
+        for (unsigned int node = 0; node < 8; ++node)
+          ASSERT_LE((at_node(cell.force, node) - cell.nodal_force(node, R * F, turned)).norm(),
+                    1e-12 * sigma.norm());
+      }
+      EXPECT_NEAR(cell.forces.internal_work(), work, 1e-12 * work);
+    }
+  }
+
+
+  TEST_P(OneCell, SimpleShearAndDilatationAreExactInAnyNumberOfSteps)
+  {
+    for (const unsigned int n : {1, 4, 10, 100})
+    {
+      // sigma12 = G g, sigma11 = G g^2: 800 and 1600 at g = 2.
+      DrivenCell sheared(GetParam());
+      sheared.follow([](const double t) { return shear(2. * t); }, n);
+      EXPECT_LE(sheared.error(Matrix({{1600., 800., 0.}, {800., 0., 0.}, {0., 0., 0.}})), 1e-9)
+        << n;
+      // 3 K (1 - 1/l) = 666.666667 at l = 1.5.
+      DrivenCell dilated(GetParam());
+      dilated.follow([](const double t) { return diagonal(1. + .5 * t, 1. + .5 * t, 1. + .5 * t); },
+                     n);
+      EXPECT_LE(dilated.error(diagonal(2000. / 3., 2000. / 3., 2000. / 3.)), 1e-9) << n;
+    }
+  }
+
+
+  TEST_P(OneCell, UniaxialStrainHasTheKnownNumbersAndSecondOrder)
+  {
+    struct Known
+    {
+      double stretch;
+      unsigned int n;
+      double sigma_11;
+    };
+    for (const auto &known : {Known{1.5, 1, 576.},
+                              Known{1.5, 4, 598.361678},
+                              Known{1.5, 10, 599.736395},
+                              Known{.6, 1, -450.},
+                              Known{.6, 4, -477.846574},
+                              Known{.6, 10, -479.652191}})
+    {
+      DrivenCell cell(GetParam());
+      cell.follow([&](const double t) { return diagonal(1. + (known.stretch - 1.) * t, 1., 1.); },
+                  known.n);
+      const double lateral = 400. * (1. - 1. / known.stretch); // lambda (1 - 1/l), for any steps
+      EXPECT_LE(cell.error(diagonal(known.sigma_11, lateral, lateral)), 1e-6) << known.n;
+    }
+    const auto error = [](const unsigned int n) {
+      DrivenCell cell(GetParam());
+      cell.follow([](const double t) { return diagonal(1. + .5 * t, 1., 1.); }, n);
+      return cell.error(diagonal(600., 400. / 3., 400. / 3.)); // M (l - 1)
+    };
+    const double order = std::log2(error(50) / error(100));
+    report("order under uniaxial strain", order);
+    EXPECT_NEAR(order, 2., 0.02);
+  }
+
+
+  TEST_P(OneCell, StretchAndTurnHasTheKnownNumbersAndSecondOrder)
+  {
+    // R_z(90 degrees t) diag(1 + .3t, 1 - .1t, 1 + .1t).
+    const Path path = [](const double t) {
+      const double c = std::cos(.5 * pi * t), s = std::sin(.5 * pi * t);
+      return Matrix({{c, -s, 0.}, {s, c, 0.}, {0., 0., 1.}}) *
+             diagonal(1. + .3 * t, 1. - .1 * t, 1. + .1 * t);
+    };
+    const std::vector<std::pair<unsigned int, std::array<double, 3>>> known =
+      {{1, {{3.050020, 669.429541, 116.402116}}},
+       {4, {{11.356612, 370.222911, 168.378820}}},
+       {10, {{11.916270, 360.069013, 171.935753}}}};
+    for (const auto &[n, sigma] : known)
+    {
+      DrivenCell cell(GetParam());
+      cell.follow(path, n);
+      for (unsigned int q = 0; q < 8; ++q)
+        for (unsigned int d = 0; d < 3; ++d)
+          EXPECT_NEAR(cell.stress(q)[d][d], sigma[d], 1e-6) << n;
+    }
+    const auto error = [&](const unsigned int n) {
+      DrivenCell cell(GetParam());
+      cell.follow(path, n);
+      return std::abs(cell.stress(0)[1][1] - 358.185785);
+    };
+    const double order = std::log2(error(10) / error(20));
+    report("order under stretch and turn", order);
+    EXPECT_NEAR(order, 2., 0.05);
+  }
+
+
+  TEST_P(OneCell, InternalWorkIsTheIntegralOfForceTimesWay)
+  {
+    // Uniaxial strain: P = M (l - 1) (the Truesdell rate gives it exactly), W = M (l - 1)^2/2 V.
+    DrivenCell cell(GetParam());
+    cell.follow([](const double t) { return diagonal(1. + .2 * t, 1., 1.); }, 1000);
+    EXPECT_NEAR(cell.forces.internal_work(), .48 * .5 * 1200. * .04, 1e-5);
+    EXPECT_EQ(cell.forces.plastic_work(), 0.);
+  }
+
+
+  // ---------------------------------------------------------------------------------------------
+  // Lumped masses
+  // ---------------------------------------------------------------------------------------------
+
+  // Volume by the divergence theorem: under a bilinear face it is the mean of both splits into
+  // triangles.
+  double
+  volume_within(const Discretization &discretization)
+  {
+    const auto under = [](const Vector &a, const Vector &b, const Vector &c) {
+      return a * cross_product_3d(b, c) / 6.;
+    };
+    double sum = 0.;
+    for (const auto &face : discretization.faces_on(discretization.boundary_ids("", "", "cell")))
+    {
+      std::array<Vector, 4> p;
+      for (unsigned int k = 0; k < 4; ++k)
+        p[k] = at_node(discretization.reference, face.nodes[k]);
+      sum += 0.5 * (under(p[0], p[1], p[2]) + under(p[0], p[2], p[3]) + under(p[0], p[1], p[3]) +
+                    under(p[1], p[2], p[3]));
+    }
+    return sum;
+  }
+
+
+  double
+  total_mass(const Discretization &discretization)
+  {
+    double sum = 0.;
+    for (const double m : discretization.mass)
+    {
+      EXPECT_GT(m, 0.);
+      sum += m;
+    }
+    return sum;
+  }
+
+
+  TEST(LumpedMass, OfABrickIsAnEighthEach)
+  {
+    const Discretization brick({body_of(box(Vector({1., .8, .6})), CellIntegration::full)},
+                               {elastic(7800.)},
+                               MPI_COMM_SELF);
+    ASSERT_EQ(brick.mass.size(), 8u);
+    for (const double m : brick.mass)
+      EXPECT_NEAR(m, 7800. * .48 / 8., 1e-12 * 468.);
+  }
+
+
+  TEST(LumpedMass, OfADistortedCellIsTheIntegralOfTheShapeFunctions)
+  {
+    const ScratchDirectory scratch;
+    const std::string file             = scratch.path + "/cell.vtk";
+    const std::array<Vector, 8> corner = {{Vector({0., 0., 0.}),
+                                           Vector({1.2, .1, -.1}),
+                                           Vector({1., 1.3, .2}),
+                                           Vector({-.1, .9, 0.}),
+                                           Vector({.1, -.2, 1.}),
+                                           Vector({.9, .1, 1.2}),
+                                           Vector({1.1, .8, .9}),
+                                           Vector({.2, 1.1, 1.3})}};
+    std::ofstream out(file);
+    out << "# vtk DataFile Version 3.0\ncell\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS 8 double\n";
+    for (const auto &p : corner)
+      out << p << "\n";
+    out << "\nCELLS 1 9\n8 0 1 2 3 4 5 6 7\n\nCELL_TYPES 1\n12\n";
+    out.close();
+    FileShape shape;
+    shape.name  = file;
+    shape.scale = 1.;
+    const Discretization cell({body_of(shape, CellIntegration::full)},
+                              {elastic(3.)},
+                              MPI_COMM_SELF);
+
+    EXPECT_NEAR(total_mass(cell), 3. * volume_within(cell), 1e-13);
+    // m_a = rho int N_a J over [0,1]^3, cubic in each coordinate: Simpson's rule is exact.
+    std::array<Vector, 8> p;
+    for (unsigned int v = 0; v < 8; ++v)
+      p[v] = at_node(cell.reference, cell.cells[0].nodes[v]);
+    std::array<double, 8> expected{};
+    const std::array<double, 3> at = {{0., .5, 1.}}, weight = {{1. / 6., 4. / 6., 1. / 6.}};
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        for (unsigned int k = 0; k < 3; ++k)
+        {
+          const double xi[3] = {at[i], at[j], at[k]};
+          Matrix J;
+          std::array<double, 8> N;
+          for (unsigned int v = 0; v < 8; ++v)
+          {
+            double f[3], s[3];
+            for (unsigned int d = 0; d < 3; ++d)
+            {
+              f[d] = (v >> d) & 1 ? xi[d] : 1. - xi[d];
+              s[d] = (v >> d) & 1 ? 1. : -1.;
+            }
+            N[v] = f[0] * f[1] * f[2];
+            for (unsigned int c = 0; c < 3; ++c)
+            {
+              J[c][0] += p[v][c] * s[0] * f[1] * f[2];
+              J[c][1] += p[v][c] * f[0] * s[1] * f[2];
+              J[c][2] += p[v][c] * f[0] * f[1] * s[2];
+            }
+          }
+          for (unsigned int v = 0; v < 8; ++v)
+            expected[v] += 3. * weight[i] * weight[j] * weight[k] * N[v] * determinant(J);
+        }
+    for (unsigned int v = 0; v < 8; ++v)
+      EXPECT_NEAR(cell.mass[cell.cells[0].nodes[v]], expected[v], 1e-14);
+  }
+
+
+  TEST(LumpedMass, OfACylinderIsDensityTimesTheVolumeOfItsMesh)
+  {
+    CylinderShape shape;
+    shape.radius        = .2;
+    shape.length        = .8;
+    shape.cells_across  = 3;
+    shape.cells_radial  = 2;
+    shape.cells_axial   = 4;
+    shape.sector        = CylinderShape::Sector::full;
+    shape.axial_grading = 3.;
+    const Discretization cylinder({body_of(shape, CellIntegration::full)},
+                                  {elastic(7800.)},
+                                  MPI_COMM_SELF);
+    const double mass = 7800. * volume_within(cylinder);
+    EXPECT_NEAR(total_mass(cylinder), mass, 1e-13 * mass);
+    // Somewhat less than the round cylinder.
+    EXPECT_LT(mass, 7800. * pi * .04 * .8);
+    EXPECT_GT(mass, .9 * 7800. * pi * .04 * .8);
+  }
+
+
+  // ---------------------------------------------------------------------------------------------
+  // Free flight
+  // ---------------------------------------------------------------------------------------------
+
+  constexpr double cell_mass = 8. * .48;
+
+
+  TEST(FreeFlight, KeepsMomentaAndEnergy)
+  {
+    for (const char *const integration : {"full", "mean dilatation"})
+    {
+      const Table history = run_case(shipped("one_cell"),
+                                     {std::string("Bodies/cell/Integration=") + integration});
+      ASSERT_GT(history.n_rows(), 1000u);
+      // Lumped inertia of a brick: m/4 (b^2 + c^2) about x.
+      const std::array<double, 3> velocity = {{.5, -.3, .2}};
+      const std::array<double, 3> spin = {{.6 * (.64 + .36), .8 * (1. + .36), 1.2 * (1. + .64)}};
+      const char axis[]                = {'x', 'y', 'z'};
+      double turned = 0., drift = 0., energy = 0., strain = 0.;
+      for (std::size_t i = 0; i < history.n_rows(); ++i)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+        {
+          drift  = std::max(drift,
+                           std::abs(history[std::string("momentum_") + axis[d]][i] -
+                                    cell_mass * velocity[d]));
+          turned = std::max(turned,
+                            std::abs(history[std::string("angular_momentum_") + axis[d]][i] -
+                                     cell_mass / 4. * spin[d]));
+        }
+        energy = std::max(energy, std::abs(history["energy_error"][i]));
+        strain = std::max(strain, history["strain_energy"][i]);
+      }
+      report("linear momentum, largest change", drift);
+      report("angular momentum, largest change", turned);
+      report("energy error", energy);
+      EXPECT_LE(drift, 1e-12);
+      EXPECT_LE(turned, 1e-10);
+      EXPECT_LE(energy, 1e-3);
+      EXPECT_GT(strain, 0.); // it does strain
+    }
+  }
+
+
+  TEST(FreeFlight, FallIsExact)
+  {
+    const Table history           = run_case(shipped("one_cell"),
+                                   {"Body force/Acceleration=1; -2; -9.81",
+                                              "Bodies/cell/Spin=0, 0, 0",
+                                              "Time/End=2"});
+    const std::array<double, 3> g = {{1., -2., -9.81}}, v = {{.5, -.3, .2}};
+    const char axis[] = {'x', 'y', 'z'};
+    for (std::size_t i = 0; i < history.n_rows(); ++i)
+    {
+      const double t = history["time"][i];
+      for (unsigned int d = 0; d < 3; ++d)
+      {
+        ASSERT_NEAR(history[std::string("corner.displacement_") + axis[d]][i],
+                    v[d] * t + .5 * g[d] * t * t,
+                    1e-11);
+        ASSERT_NEAR(history[std::string("momentum_") + axis[d]][i],
+                    cell_mass * (v[d] + g[d] * t),
+                    1e-11);
+      }
+      ASSERT_LE(std::abs(history["energy_error"][i]), 1e-12);
+      ASSERT_NEAR(history["strain_energy"][i], 0., 1e-12);
+    }
+  }
+} // namespace
