@@ -1,10 +1,14 @@
 #include <akmon/case.h>
 #include <akmon/parameters.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <iostream>
+#include <limits>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -43,6 +47,27 @@ namespace akmon
     {
       std::vector<std::string> path;
       std::string key, value;
+    };
+
+
+    // Swallows what is written to std::cerr while it lives.
+    class SilentErrors
+    {
+    public:
+      SilentErrors() : previous(std::cerr.rdbuf(swallowed.rdbuf()))
+      {
+      }
+
+      ~SilentErrors()
+      {
+        std::cerr.rdbuf(previous);
+      }
+
+      SilentErrors(const SilentErrors &) = delete;
+
+    private:
+      std::ostringstream swallowed;
+      std::streambuf *previous;
     };
 
 
@@ -92,51 +117,150 @@ namespace akmon
     }
 
 
-    // The subsections that are open at a line of a prm file, "Bodies/left".
     std::string
-    section_at_line(const std::string &file, const unsigned int line_number)
+    join(const std::vector<std::string> &names, const std::string &separator)
+    {
+      std::string text;
+      for (const auto &name : names)
+        text += (text.empty() ? "" : separator) + name;
+      return text;
+    }
+
+
+    // Follows a prm text line by line.
+    struct PrmReader
+    {
+      std::vector<std::string> open; // the subsections around the last line: "Bodies", "left"
+      std::string key, value;        // if that line sets an entry
+
+      void
+      take(const std::string &line)
+      {
+        static const std::regex subsection("\\s*subsection\\s+(.*?)\\s*(#.*)?"),
+          end("\\s*end\\s*(#.*)?"), set("\\s*set\\s+(.*?)\\s*=\\s*(.*?)\\s*(#.*)?");
+        std::smatch match;
+        key.clear();
+        if (std::regex_match(line, match, subsection))
+          open.push_back(match[1]);
+        else if (std::regex_match(line, end) && !open.empty())
+          open.pop_back();
+        else if (std::regex_match(line, match, set))
+        {
+          key   = match[1];
+          value = match[2];
+        }
+      }
+    };
+
+
+    // Reads a file up to a line (or its end).
+    PrmReader
+    read_until(const std::string &file, const unsigned int line_number)
     {
       std::ifstream in(file);
-      std::vector<std::string> open;
+      PrmReader reader;
       std::string line;
       for (unsigned int i = 0; i < line_number && std::getline(in, line); ++i)
+        reader.take(line);
+      return reader;
+    }
+
+
+    // What a declared section has: its keys or its subsections.
+    std::string
+    contents(const ParameterHandler &prm,
+             const std::vector<std::string> &section,
+             const bool want_subsections)
+    {
+      std::stringstream text;
+      prm.print_parameters(text, ParameterHandler::ShortText);
+      PrmReader reader;
+      std::vector<std::string> names;
+      for (std::string line; std::getline(text, line);)
       {
-        std::smatch match;
-        if (std::regex_match(line, match, std::regex("\\s*subsection\\s+(.*?)\\s*(#.*)?")))
-          open.push_back(match[1]);
-        else if (std::regex_match(line, std::regex("\\s*end\\s*(#.*)?")) && !open.empty())
-          open.pop_back();
+        const std::size_t depth_before = reader.open.size();
+        reader.take(line);
+        const auto &open = reader.open;
+        if (!reader.key.empty() && !want_subsections && open == section)
+          names.push_back(reader.key);
+        else if (open.size() > depth_before && want_subsections &&
+                 std::vector<std::string>(open.begin(), open.end() - 1) == section)
+          names.push_back(open.back());
       }
-      std::string section;
-      for (const auto &name : open)
-        section += (section.empty() ? "" : "/") + name;
-      return section;
+      return names.empty() ? "none" : join(names, ", ");
+    }
+
+
+    std::string
+    no_such_section(const ParameterHandler &prm, std::vector<std::string> section)
+    {
+      // The first part that is unknown.
+      std::vector<std::string> known;
+      while (known.size() + 1 < section.size())
+      {
+        known.push_back(section[known.size()]);
+        if (!prm.subsection_path_exists(known))
+        {
+          known.pop_back();
+          break;
+        }
+      }
+      const bool is_list = known.size() == 1 &&
+                           std::any_of(list_sections().begin(),
+                                       list_sections().end(),
+                                       [&](const auto &list) { return list.name == known[0]; });
+      return "there is no such section; allowed are " + contents(prm, known, true) +
+             (is_list ? " (the Names of [" + known[0] + "])" : "");
+    }
+
+
+    std::string
+    no_such_key(const ParameterHandler &prm, const std::vector<std::string> &section)
+    {
+      return "there is no such key; allowed are " + contents(prm, section, false);
     }
 
 
     // One line out of what deal.II says about a prm file.
     std::string
-    one_line(const ExceptionBase &exception, const std::string &file)
+    one_line(const ExceptionBase &exception, const ParameterHandler &prm, const std::string &file)
     {
       std::ostringstream text;
       exception.print_info(text);
-      const std::string collapsed = std::regex_replace(text.str(), std::regex("\\s+"), " ");
+      const std::string collapsed = dealii::Utilities::trim(
+        std::regex_replace(text.str(), std::regex("\\s+"), " "));
+      const auto found = [&](const char *const pattern, std::smatch &match) {
+        return std::regex_search(collapsed, match, std::regex(pattern));
+      };
+
       std::smatch match;
-      std::string place;
-      if (std::regex_search(collapsed, match, std::regex("[Ll]ine <?(\\d+)>?")))
-        place = "line " + match[1].str() + ", [" + section_at_line(file, std::stoi(match[1])) +
-                "] ";
-      if (std::regex_search(collapsed,
-                            match,
-                            std::regex(
-                              "entry value (.*) for the entry named (.*) does not match the given "
-                              "pattern:? (.*)")))
-        return place + match[2].str() + " = " + match[1].str() + ": allowed is " + match[3].str();
-      if (std::regex_search(collapsed, match, std::regex("No entry with name <(.*)> was declared")))
-        return place + match[1].str() + ": there is no such key in this section";
-      if (std::regex_search(collapsed, match, std::regex("no such subsection to be entered: (.*)")))
-        return place + "there is no such subsection (lists need the name in their Names)";
-      return place + collapsed;
+      if (dynamic_cast<const ParameterHandler::ExcUnbalancedSubsections *>(&exception))
+        return "the end of the file comes within section [" +
+               join(read_until(file, std::numeric_limits<unsigned int>::max()).open, "/") +
+               "]: an 'end' is missing in it or before it";
+      if (!found("Line <(\\d+)> of file <(.*?)(?:>:|>\\.|: There is) *(.*)", match))
+        return collapsed;
+      const std::string problem = match[3];
+      const auto reader         = read_until(match[2], std::stoul(match[1]));
+      const std::string place   = "line " + match[1].str() +
+                                (match[2] == file ? "" : " of " + match[2].str()) + ": ";
+      const std::string section = reader.open.empty() ? "" : "[" + join(reader.open, "/") + "] ";
+      if (dynamic_cast<const ParameterHandler::ExcNoSubsection *>(&exception))
+        return place + section + no_such_section(prm, reader.open);
+      if (dynamic_cast<const ParameterHandler::ExcInvalidEntryForPattern *>(&exception) &&
+          found("does not match the given pattern:? *(.*)", match))
+        return place + section + reader.key + " = " + reader.value + ": " +
+               allowed_values(match[1]);
+      if (found("No entry with name", match))
+        return place + section + reader.key + " = " + reader.value + ": " +
+               no_such_key(prm, reader.open);
+      if (found("no subsection to leave", match))
+        return place + "an 'end' without its subsection";
+      if (found("The line <(.*)> could not be parsed", match))
+        return place + section + "'" + match[1].str() +
+               "' is not understood; allowed are 'subsection NAME', 'set KEY = VALUE', 'end' and "
+               "comments after '#'";
+      return place + section + problem;
     }
 
 
@@ -144,15 +268,19 @@ namespace akmon
     parse_file(ParameterHandler &prm, const std::string &file, const bool skip_undefined)
     {
       std::ifstream in(file);
-      if (!in)
-        throw InputError("cannot be read");
+      if (!in || !std::filesystem::exists(file))
+        throw InputError("there is no such file, or it cannot be read");
+      if (std::filesystem::is_directory(file))
+        throw InputError("this is a directory; a parameter file is needed");
+      if (in.peek() == std::ifstream::traits_type::eof())
+        throw InputError("the file is empty");
       try
       {
         prm.parse_input(in, file, "", skip_undefined);
       }
       catch (const ExceptionBase &exception)
       {
-        throw InputError(one_line(exception, file));
+        throw InputError(one_line(exception, prm, file));
       }
     }
 
@@ -178,36 +306,35 @@ namespace akmon
     void
     apply_override(ParameterHandler &prm, const Override &entry)
     {
-      std::string section;
+      const std::string section = join(entry.path, "/");
+      const std::string what    = "--set " + (section.empty() ? "" : "[" + section + "] ") +
+                               entry.key + " = " + entry.value + ": ";
+      if (!entry.path.empty() && !prm.subsection_path_exists(entry.path))
+        throw InputError(what + no_such_section(prm, entry.path));
       for (const auto &name : entry.path)
-      {
         prm.enter_subsection(name);
-        section += (section.empty() ? "" : "/") + name;
-      }
-      const InputError unknown("--set [" + section + "] " + entry.key + ": there is no such key");
-      try
-      {
-        prm.get(entry.key);
-      }
-      catch (const ExceptionBase &)
-      {
-        throw unknown;
-      }
+      std::string problem;
       try
       {
         prm.set(entry.key, entry.value);
       }
-      catch (const ExceptionBase &exception)
+      catch (const ParameterHandler::ExcValueDoesNotMatchPattern &exception)
       {
         std::ostringstream text;
         exception.print_info(text);
-        throw InputError("--set " + section,
-                         entry.key,
-                         entry.value,
-                         std::regex_replace(text.str(), std::regex("\\s+"), " "));
+        std::smatch match;
+        const std::string info = text.str();
+        std::regex_search(info, match, std::regex("given pattern <(.*)>\\."));
+        problem = allowed_values(match[1]);
+      }
+      catch (const ExceptionBase &)
+      {
+        problem = no_such_key(prm, entry.path);
       }
       for (unsigned int i = 0; i < entry.path.size(); ++i)
         prm.leave_subsection();
+      if (!problem.empty())
+        throw InputError(what + problem);
     }
 
 
@@ -269,9 +396,28 @@ namespace akmon
     }
 
 
+    void
+    check_materials(const Case &result)
+    {
+      std::vector<std::string> known;
+      for (const auto &material : result.materials)
+        known.push_back(material.name);
+      for (const auto &body : result.bodies)
+        if (std::find(known.begin(), known.end(), body.material) == known.end())
+          throw InputError("Bodies/" + body.name,
+                           "Material",
+                           body.material,
+                           "there is no such material; allowed are " +
+                             (known.empty() ? "none" : join(known, ", ")) +
+                             " (the Names of [Materials])");
+    }
+
+
     Case
     parse_all(ParameterHandler &prm, const Names &names, const std::string &file)
     {
+      if (names.at("Bodies").empty())
+        throw InputError("Bodies", "Names", "(none)", "a case needs at least one body");
       Case result;
       result.title            = prm.get("Title");
       result.output_directory = prm.get("Output directory");
@@ -287,8 +433,7 @@ namespace akmon
       result.planes   = parse_items<RigidPlane>(prm, names, "Obstacles");
       result.probes   = parse_items<Probe>(prm, names, "Probes");
       parse_section(prm, "Output", result.output);
-      if (result.bodies.empty())
-        throw InputError("Bodies", "Names", "(none)", "a case needs at least one body");
+      check_materials(result);
       std::ostringstream as_used;
       prm.print_parameters(as_used, ParameterHandler::PRM);
       result.as_used = as_used.str();
@@ -300,21 +445,16 @@ namespace akmon
   Case
   Case::read(const std::string &file, const std::vector<std::string> &overrides)
   {
-    try
-    {
-      const auto entries = split_overrides(overrides);
-      const Names names  = read_names(file, entries);
-      ParameterHandler prm;
-      declare_all(prm, names);
-      parse_file(prm, file, false);
-      for (const auto &entry : entries)
-        apply_override(prm, entry);
-      return parse_all(prm, names, file);
-    }
-    catch (const InputError &error)
-    {
-      throw InputError(file + ": " + error.what());
-    }
+    // deal.II's function parser talks to std::cerr before it throws.
+    const SilentErrors silent;
+    const auto entries = split_overrides(overrides);
+    const Names names  = read_names(file, entries);
+    ParameterHandler prm;
+    declare_all(prm, names);
+    parse_file(prm, file, false);
+    for (const auto &entry : entries)
+      apply_override(prm, entry);
+    return parse_all(prm, names, file);
   }
 
 

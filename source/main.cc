@@ -4,7 +4,10 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <chrono>
 #include <iostream>
+#include <regex>
+#include <thread>
 
 namespace
 {
@@ -31,6 +34,8 @@ namespace
       const std::string argument = argv[i];
       if (argument == "--set" && i + 1 < argc)
         arguments.overrides.emplace_back(argv[++i]);
+      else if (argument == "--set")
+        throw akmon::InputError("--set needs \"Section/Sub/Key=value\" after it");
       else if (argument == "--validate")
         arguments.validate = true;
       else if (argument == "--print-parameters")
@@ -62,12 +67,45 @@ namespace
       akmon::Case::print_reference(std::cout);
     if (arguments.file.empty())
       return;
-    akmon::Simulation simulation(akmon::Case::read(arguments.file, arguments.overrides),
-                                 MPI_COMM_WORLD);
-    if (!arguments.validate)
-      simulation.run();
-    else if (root)
-      std::cout << arguments.file << " is valid\n";
+    try
+    {
+      akmon::Simulation simulation(akmon::Case::read(arguments.file, arguments.overrides),
+                                   MPI_COMM_WORLD);
+      if (!arguments.validate)
+        simulation.run();
+      else if (root)
+        std::cout << arguments.file << " is valid\n";
+    }
+    catch (const akmon::InputError &error)
+    {
+      throw akmon::InputError(arguments.file + ": " + error.what());
+    }
+  }
+
+
+  // Whether all ranks get here. Input and run errors are raised on all ranks alike; others, such as
+  // too little memory, may stop one rank while the others wait for it.
+  bool
+  all_ranks_fail(const MPI_Comm communicator)
+  {
+    MPI_Request request;
+    int all = 0;
+    MPI_Ibarrier(communicator, &request);
+    for (unsigned int tenth_of_second = 0; tenth_of_second < 100 && !all; ++tenth_of_second)
+    {
+      MPI_Test(&request, &all, MPI_STATUS_IGNORE);
+      if (!all)
+        std::this_thread::sleep_for(std::chrono::milliseconds(tenth_of_second == 0 ? 1 : 100));
+    }
+    return all;
+  }
+
+
+  void
+  report(const std::string &error)
+  {
+    std::cerr << "akmon: error: " + std::regex_replace(error, std::regex("\\s*\n\\s*"), " ") + "\n"
+              << std::flush;
   }
 } // namespace
 
@@ -77,16 +115,22 @@ main(int argc, char **argv)
 {
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  MPI_Comm for_errors;
+  MPI_Comm_dup(MPI_COMM_WORLD, &for_errors);
+  int status = 0;
   try
   {
     run(read_arguments(argc, argv), root);
   }
   catch (const std::exception &error)
   {
-    // Input and run errors are raised on all ranks alike: one of them speaks.
-    if (root)
-      std::cerr << "akmon: error: " << error.what() << std::endl;
-    return 1;
+    status         = 1;
+    const bool all = all_ranks_fail(for_errors);
+    if (root || !all)
+      report(error.what());
+    if (!all)
+      MPI_Abort(MPI_COMM_WORLD, status);
   }
-  return 0;
+  MPI_Comm_free(&for_errors);
+  return status;
 }

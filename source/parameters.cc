@@ -3,8 +3,57 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/utilities.h>
 
+#include <regex>
+
 namespace akmon
 {
+  namespace
+  {
+    // "numbers from 0 to 1", "box, cylinder, sphere", "3 numbers separated by commas"
+    std::string
+    in_words(const std::string &pattern)
+    {
+      std::smatch match;
+      if (std::regex_match(pattern,
+                           match,
+                           std::regex("\\[(Double|Integer)(?: range)?(?: (\\S+)\\.\\.\\.(\\S+))?"
+                                      "(?: \\(inclusive\\))?\\]")))
+      {
+        std::string text  = match[1] == "Double" ? "numbers" : "integers";
+        const auto finite = [](const std::string &bound) {
+          return !bound.empty() && bound.find("MAX_DOUBLE") == std::string::npos &&
+                 bound.find("2147483647") == std::string::npos &&
+                 bound.find("2147483648") == std::string::npos;
+        };
+        const std::string lower = match[2], upper = match[3];
+        if (finite(lower) && finite(upper))
+          return text + " from " + lower + " to " + upper;
+        if (finite(lower))
+          return text + " not below " + lower;
+        return finite(upper) ? text + " not above " + upper : text;
+      }
+      if (std::regex_match(pattern, match, std::regex("\\[(Multiple)?Selection (.*?) *\\]")))
+        return (match[1].matched ? "any of " : "") +
+               std::regex_replace(match[2].str(), std::regex("\\|"), ", ");
+      if (std::regex_match(pattern,
+                           match,
+                           std::regex("\\[List of <(.*)> of length (\\d+)\\.\\.\\.(\\d+) .*\\]")))
+        return (match[2] == match[3] ? match[2].str() + " " : "") + in_words(match[1]) +
+               " separated by commas";
+      if (pattern == "[Bool]")
+        return "true, false";
+      return pattern;
+    }
+  } // namespace
+
+
+  std::string
+  allowed_values(const std::string &pattern)
+  {
+    return "allowed are " + in_words(dealii::Utilities::trim(pattern));
+  }
+
+
   InputError::InputError(const std::string &message) : std::runtime_error(message)
   {
   }
@@ -14,7 +63,8 @@ namespace akmon
                          const std::string &key,
                          const std::string &value,
                          const std::string &allowed)
-    : std::runtime_error("[" + section + "] " + key + " = " + value + ": " + allowed)
+    : std::runtime_error((section.empty() ? "" : "[" + section + "] ") + key + " = " + value +
+                         ": " + allowed)
   {
   }
 

@@ -1,3 +1,4 @@
+#include <akmon/contact/initial_overlap.h>
 #include <akmon/output/directory.h>
 #include <akmon/output/summary.h>
 #include <akmon/simulation.h>
@@ -34,6 +35,7 @@ namespace akmon
     Probes(parameters.probes, discretization, internal_forces, integrator);
     contact.search(state);
     contact.refuse_initial_overlap(state);
+    refuse_body_overlap(discretization);
   }
 
 

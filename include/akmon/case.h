@@ -36,7 +36,8 @@ namespace akmon
 
     /**
      * Read a prm file, then the overrides "Section/Sub/Key=value".
-     * Throws InputError, prefixed with the file's name, for unknown keys and inadmissible values.
+     * Throws InputError, with line or section, key, value and what is allowed, for unknown keys and
+     * inadmissible values; the top level adds the file's name.
      */
     static Case
     read(const std::string &file, const std::vector<std::string> &overrides);

@@ -19,13 +19,17 @@ namespace akmon
     /// A message that stands for itself.
     explicit InputError(const std::string &message);
 
-    /// The value of a key is not acceptable: names section ("Bodies/left"), key, value and what is
-    /// allowed.
+    /// The value of a key is not acceptable: names section ("Bodies/left"; may be empty), key,
+    /// value and what is allowed.
     InputError(const std::string &section,
                const std::string &key,
                const std::string &value,
                const std::string &allowed);
   };
+
+  /// What a pattern of dealii::Patterns admits, in words: "allowed are numbers from 0 to 1".
+  std::string
+  allowed_values(const std::string &pattern);
 
   /// A comma-separated value as its entries, blanks around entries removed; empty text gives no
   /// entry.

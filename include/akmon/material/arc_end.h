@@ -25,8 +25,10 @@ namespace akmon
    *     sigma_trial = J^{-1} F sigma_n F^T + J_me^{-1} F_me (C : E_mid) F_me^T
    *                 = J_me^{-1} F_me (J_m^{-1} F_m sigma_n F_m^T + C : E_mid) F_me^T
    *
-   * followed by the law's return to its yield surface. The paper's printed maps (inverse mid map,
-   * both half maps equal) are neither objective nor second-order; see doc/theory.
+   * followed by the law's return to its yield surface. Second order in the step. Pure rotations and
+   * changes of frame are exact to round-off; a step that stretches and turns at once is objective
+   * to second order in the turn. The inverse mid map printed in the paper makes both first order
+   * only; see doc/theory.md.
    *
    * @param law        constants with `elasticity` and `return_to_yield_surface(stress, internals)`
    * @param H          displacement gradient of the step on configuration n, dimensionless
