@@ -26,7 +26,7 @@ namespace akmon
     node_offsets.resize(std::size_t(n_batches) * 8 * n_lanes);
     owned.resize(std::size_t(n_batches) * n_lanes, 0.);
     state.resize(n_batches * batch_stride(), 0.);
-    step_scale.resize(std::size_t(n_batches) * 2 * n_lanes, 0.);
+    frequencies.resize(std::size_t(n_batches) * 2 * n_lanes, 0.);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
     {
       const std::size_t begin = std::size_t(batch) * n_lanes;

@@ -5,9 +5,10 @@ namespace akmon
 {
   namespace
   {
-    // A cell's frequency is computed anew when its tracker has changed by this much; in between the
-    // calibrated tracker follows it.
-    constexpr double tracker_tolerance = 0.02;
+    // A cell's frequency is computed anew when it may have grown by this factor since (squared), and only
+    // if the cell is about to govern the step; until then the bound on its growth does.
+    constexpr double growth_tolerance = 1.035;
+    constexpr double governing_part   = 0.99;
   } // namespace
 
 
@@ -20,12 +21,12 @@ namespace akmon
       CellBatches &batches = body_batches.back();
       for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
       {
-        calibrate(discretization.reference, batches, batch);
-        const double *const scale = &batches.step_scale[std::size_t(batch) * 2 * n_lanes];
+        calibrate(discretization.reference, batches, batch, Lanes(0.) < Lanes(1.));
+        const double *const omega_squared = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
         for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
-          if (scale[lane] * scale[n_lanes + lane] > frequency_squared)
+          if (omega_squared[lane] > frequency_squared)
           {
-            frequency_squared       = scale[lane] * scale[n_lanes + lane];
+            frequency_squared       = omega_squared[lane];
             initially_limiting_cell = batches.first_cell + std::size_t(batch) * n_lanes + lane;
           }
       }
@@ -34,32 +35,26 @@ namespace akmon
 
 
   void
-  InternalForces::calibrate(const NodalVector &x, CellBatches &batches, const unsigned int batch)
+  InternalForces::calibrate(const NodalVector &           x,
+                            CellBatches &                 batches,
+                            const unsigned int            batch,
+                            const Lanes::batch_bool_type &wanted)
   {
-    Lanes positions[8][3], reference[8][3], zero[8][3], mass[8];
+    Lanes positions[8][3], reference[8][3], mass[8];
     gather(x.begin(), batches.nodes(batch), positions);
     gather(discretization.reference.begin(), batches.nodes(batch), reference);
-    for (auto &node : zero)
-      for (auto &component : node)
-        component = Lanes(0.);
-
     lump_cell_mass(reference, discretization.material_of(batches.body).density, mass);
+    const Lanes omega_squared =
+      largest_eigenvalue(positions,
+                         mass,
+                         discretization.material_of(batches.body).elasticity(),
+                         discretization.get_bodies()[batches.body].integration);
 
-    const Lanes
-      omega_squared     = largest_eigenvalue(positions,
-                                         mass,
-                                         discretization.material_of(batches.body).elasticity(),
-                                         discretization.get_bodies()[batches.body].integration);
-    const Lanes tracker = frequency_tracker(CellGeometry<Lanes>(positions, zero));
-
-    // Lanes whose shape has hardly changed keep their calibration: a cell's step must not depend on
-    // which cells share its batch.
-    double *const scale     = &batches.step_scale[std::size_t(batch) * 2 * n_lanes];
-    const Lanes old_scale   = Lanes::load_aligned(scale);
-    const Lanes old_tracker = Lanes::load_aligned(scale + n_lanes);
-    const auto changed      = xsimd::abs(tracker - old_tracker) > tracker_tolerance * old_tracker;
-    select(changed, Lanes(omega_squared / tracker), old_scale).store_aligned(scale);
-    select(changed, tracker, old_tracker).store_aligned(scale + n_lanes);
+    // The other lanes keep what they have: a cell's step must not depend on which cells share its batch.
+    double *const frequency = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
+    double *const growth    = frequency + n_lanes;
+    select(wanted, omega_squared, Lanes::load_aligned(frequency)).store_aligned(frequency);
+    select(wanted, Lanes(1.), Lanes::load_aligned(growth)).store_aligned(growth);
   }
 
 
@@ -99,7 +94,8 @@ namespace akmon
 
       const CellGeometry<Lanes> cell(positions, increments);
       const Lanes owned = Lanes::load_aligned(&batches.owned[batch * n_lanes]);
-      update_stress_and_force<mean_dilatation>(law,
+      const Lanes strain_squared =
+        update_stress_and_force<mean_dilatation>(law,
                                                cell,
                                                owned,
                                                batches.state_at(batch),
@@ -117,20 +113,42 @@ namespace akmon
             break;
           }
 
-      const double *const scale = &batches.step_scale[std::size_t(batch) * 2 * n_lanes];
-      const Lanes tracker       = frequency_tracker(cell);
-      const Lanes calibrated_at = Lanes::load_aligned(scale + n_lanes);
-      largest                   = maximum(largest, Lanes(Lanes::load_aligned(scale) * tracker));
-      if (xsimd::any(xsimd::abs(tracker - calibrated_at) > tracker_tolerance * calibrated_at))
-        to_calibrate.push_back(batch);
+      const auto recalibrate = bound_frequency(strain_squared, batches, batch, largest);
+      if (xsimd::any(recalibrate))
+        to_calibrate.emplace_back(batch, recalibrate);
     }
     work += xsimd::hadd(sums.internal_work);
     dissipated += xsimd::hadd(sums.plastic_work);
+    if (!cell_fault.occurred())
+      for (const auto &[batch, wanted] : to_calibrate)
+        {
+          calibrate(x, batches, batch, wanted);
+          const Lanes omega_squared =
+            Lanes::load_aligned(&batches.frequencies[std::size_t(batch) * 2 * n_lanes]);
+          largest = maximum(largest, select(wanted, omega_squared, Lanes(0.)));
+        }
     for (unsigned int lane = 0; lane < n_lanes; ++lane)
       frequency_squared = std::max(frequency_squared, largest.get(lane));
-    if (!cell_fault.occurred())
-      for (const unsigned int batch : to_calibrate)
-        calibrate(x, batches, batch);
+  }
+
+
+  // Let the bound of each cell's frequency grow with the strain of the step. Returns the cells whose bound
+  // has become too loose; the others enter the maximum.
+  Lanes::batch_bool_type
+  InternalForces::bound_frequency(const Lanes &      strain_squared,
+                                  CellBatches &      batches,
+                                  const unsigned int batch,
+                                  Lanes &            largest) const
+  {
+    double *const frequency = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
+    const Lanes   factor    = frequency_growth(strain_squared);
+    const Lanes   growth    = Lanes::load_aligned(frequency + n_lanes) * factor * factor;
+    growth.store_aligned(frequency + n_lanes);
+    const Lanes bound       = Lanes::load_aligned(frequency) * growth;
+    const auto  recalibrate = (growth > Lanes(growth_tolerance)) &&
+                             (bound > Lanes(governing_part * governing_frequency_squared));
+    largest = maximum(largest, select(recalibrate, Lanes(0.), bound));
+    return recalibrate;
   }
 
 

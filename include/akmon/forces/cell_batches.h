@@ -67,6 +67,6 @@ namespace akmon
     std::vector<std::uint8_t> n_used_lanes; ///< per batch
     LaneArray owned;                        ///< [batch][lane], 1 for cells this rank owns, else 0
     LaneArray state;
-    LaneArray step_scale; ///< [batch][2][lane], see CriticalStep
+    LaneArray frequencies; ///< [batch][2][lane]: omega^2 as last computed, bound of its growth since
   };
 } // namespace akmon

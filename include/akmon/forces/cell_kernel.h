@@ -131,9 +131,10 @@ namespace akmon
    *
    * @param state  [q][component][lane] of this batch, from n to n+1
    * @param owned  per lane, 1 where the cell counts in the sums
+   * @return       largest E_mid : E_mid over the Gauss points
    */
   template <bool mean_dilatation, typename Law>
-  void
+  Lanes
   update_stress_and_force(const Law &law,
                           const CellGeometry<Lanes> &cell,
                           const Lanes &owned,
@@ -145,7 +146,7 @@ namespace akmon
     constexpr unsigned int n_points     = CellBatches::n_points;
 
     const Lanes mean_J = cell.volume_end / cell.volume_begin;
-    Lanes pressure_volume(0.), internal_work(0.), plastic_work(0.);
+    Lanes       pressure_volume(0.), internal_work(0.), plastic_work(0.), strain_squared(0.);
     for (unsigned int q = 0; q < n_points; ++q)
     {
       double *const point = state + q * n_components * n_lanes;
@@ -184,6 +185,7 @@ namespace akmon
       internal_work += 0.5 * (j0 * contract(stress_before, increment.strain) +
                               j1 * contract(stress, increment.strain));
       plastic_work += j1 * increment.plastic_work;
+      strain_squared = maximum(strain_squared, contract(increment.strain, increment.strain));
     }
     sums.internal_work += owned * internal_work;
     sums.plastic_work += owned * plastic_work;
@@ -202,5 +204,6 @@ namespace akmon
       weights.add(q, stress * cofactor(cell.end.at(q)));
     }
     weights.integrate(force);
+    return strain_squared;
   }
 } // namespace akmon

@@ -8,9 +8,8 @@
 namespace akmon
 {
   /**
-   * Largest eigenvalue omega^2 of the free cell, M^{-1} K u = omega^2 u with lumped nodal masses,
-   * by power iteration; the residual of the last iterate is added, so the answer lies above the
-   * eigenvalue that was found. No assembled frequency exceeds the largest cell frequency.
+   * Largest eigenvalue omega^2 of the free cell, M^{-1} K u = omega^2 u with lumped nodal masses, by a few
+   * steps of Lanczos' method. No assembled frequency exceeds the largest cell frequency.
    *
    * @param x        node positions [node][component], length
    * @param mass     the cell's share of the nodal masses [node]
@@ -20,25 +19,19 @@ namespace akmon
   N
   largest_eigenvalue(const N (&x)[8][3],
                      const N (&mass)[8],
-                     const Elasticity &elasticity,
+                     const Elasticity &    elasticity,
                      const CellIntegration integration);
 
   /**
-   * A scalar that follows omega^2 of a cell while it deforms, up to a factor that changes slowly:
-   * for a brick with edges a_i it is V sum_i 4/a_i^2, built from the Jacobian matrix at the cell's
-   * centre.
+   * Factor by which omega of a cell may have grown in a step with the strain increment e = E_mid. For a
+   * brick omega^2 goes with V/a^2, so that a stretch along the axes changes omega by
+   * max (-e_i + e_j + e_k)/2 <= (sqrt 3/2)|e|.
+   * @param strain_squared  largest e : e over the Gauss points
    */
   template <typename N>
   N
-  frequency_tracker(const CellGeometry<N> &cell)
+  frequency_growth(const N &strain_squared)
   {
-    const Matrix3<N> J         = cell.end.at_centre();
-    const Matrix3<N> cofactors = cofactor(J);
-    const N j                  = determinant(J, cofactors);
-    N sum(0.);
-    for (unsigned int i = 0; i < 3; ++i)
-      for (unsigned int k = 0; k < 3; ++k)
-        sum += cofactors(i, k) * cofactors(i, k);
-    return cell.volume_end * sum / (j * j);
+    return 1. + 0.8660254037844386 * square_root(strain_squared);
   }
 } // namespace akmon
