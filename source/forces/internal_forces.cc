@@ -39,29 +39,11 @@ namespace akmon
     Lanes positions[8][3], reference[8][3], zero[8][3], mass[8];
     gather(x.begin(), batches.nodes(batch), positions);
     gather(discretization.reference.begin(), batches.nodes(batch), reference);
-    for (unsigned int v = 0; v < 8; ++v)
-    {
-      mass[v] = Lanes(0.);
-      for (auto &component : zero[v])
+    for (auto &node : zero)
+      for (auto &component : node)
         component = Lanes(0.);
-    }
 
-    // The cell's share of the lumped masses, int rho_0 N_a dOmega_0 with the Gauss points' N_a.
-    const auto gradients = TrilinearGradients<Lanes>::evaluate(reference);
-    const double density = discretization.material_of(batches.body).density;
-    for (unsigned int q = 0; q < CellBatches::n_points; ++q)
-    {
-      const Matrix3<Lanes> J = gradients.at(q);
-      const Lanes j          = determinant(J, cofactor(J));
-      for (unsigned int v = 0; v < 8; ++v)
-      {
-        double shape_value = density;
-        for (unsigned int d = 0; d < 3; ++d)
-          shape_value *= ((v >> d) & 1) == ((q >> d) & 1) ? TrilinearGradients<Lanes>::a
-                                                          : TrilinearGradients<Lanes>::b;
-        mass[v] += shape_value * j;
-      }
-    }
+    lump_cell_mass(reference, discretization.material_of(batches.body).density, mass);
 
     const Lanes
       omega_squared     = largest_eigenvalue(positions,

@@ -1,13 +1,11 @@
+#include <akmon/forces/trilinear.h>
 #include <akmon/model/body_mesh.h>
 #include <akmon/model/discretization.h>
 #include <akmon/parameters.h>
 
-#include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_renumbering.h>
 #include <deal.II/dofs/dof_tools.h>
 #include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_values.h>
-#include <deal.II/fe/mapping_q1.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
@@ -279,26 +277,24 @@ namespace akmon
   void
   Discretization::lump_masses()
   {
-    // Row sums of the consistent mass matrix: m_a = int rho N_a dOmega, positive for any valid
-    // cell.
-    const FE_Q<3> scalar(1);
-    const MappingQ1<3> mapping;
-    FEValues<3> fe_values(mapping, scalar, QGauss<3>(2), update_values | update_JxW_values);
+    // Not by FEValues, which takes over the Jacobian of a similar cell before: masses would then depend, in
+    // their last digits, on which cells a rank has.
     NodalVector lumped = make_vector();
     for (const auto &cell : cells)
-    {
-      fe_values.reinit(Triangulation<3>::active_cell_iterator(cell.cell));
-      const double density = material_of(cell.body).density;
-      for (const unsigned int q : fe_values.quadrature_point_indices())
       {
-        if (!(fe_values.JxW(q) > 0.))
-          throw InputError("body '" + bodies[cell.body].name + "': cell " +
-                           std::to_string(cell.id) + " is inverted in the initial mesh");
+        double X[8][3], cell_mass[8];
         for (unsigned int v = 0; v < 8; ++v)
-          lumped.local_element(3 * cell.nodes[v]) += density * fe_values.shape_value(v, q) *
-                                                     fe_values.JxW(q);
+          for (unsigned int d = 0; d < 3; ++d)
+            X[v][d] = reference.local_element(3 * cell.nodes[v] + d);
+        lump_cell_mass(X, material_of(cell.body).density, cell_mass);
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            if (!(cell_mass[v] > 0.))
+              throw InputError("body '" + bodies[cell.body].name + "': cell " + std::to_string(cell.id) +
+                               " is inverted in the initial mesh");
+            lumped.local_element(3 * cell.nodes[v]) += cell_mass[v];
+          }
       }
-    }
     // Only owned nodes have all their cells here.
     lumped.update_ghost_values();
     mass.resize(n_nodes);

@@ -81,15 +81,18 @@ namespace akmon
         sum += discretization.mass[node] * velocity(node).norm_square();
       return 0.5 * sum;
     }
+    const double        dt = state.dt, dt_next = state.dt_next, dt_bar = 0.5 * (dt + dt_next);
     const double *const dx      = state.dx.begin();
     const double *const dx_next = state.dx_next.begin();
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
-    {
-      const unsigned int i = 3 * node;
-      sum += discretization.mass[node] *
-             (dx[i] * dx_next[i] + dx[i + 1] * dx_next[i + 1] + dx[i + 2] * dx_next[i + 2]);
-    }
-    return 0.5 * sum / (state.dt * state.dt_next);
+      for (unsigned int i = 3 * node; i < 3 * node + 3; ++i)
+        {
+          const double before = dx[i] / dt, after = dx_next[i] / dt_next;
+          const double v = (dt_next * before + dt * after) / (dt + dt_next);
+          const double a = (after - before) / dt_bar;
+          sum += discretization.mass[node] * (v * v - 0.25 * dt * dt_next * a * a);
+        }
+    return 0.5 * sum;
   }
 
 

@@ -145,7 +145,7 @@ namespace akmon::test
   run_program(const std::vector<std::string> &arguments, const unsigned int n_ranks)
   {
     // Processes started inside an MPI process must not take it for their parent.
-    std::string command = "env -u PMIX_RANK -u PMIX_NAMESPACE -u OMPI_COMM_WORLD_RANK -u OMPI_COMM_WORLD_SIZE ";
+    std::string command = "env -u OMPI_MCA_ess -u PMIX_RANK -u PMIX_NAMESPACE -u OMPI_COMM_WORLD_RANK -u OMPI_COMM_WORLD_SIZE ";
     if (n_ranks > 1)
       command += "mpirun --oversubscribe --bind-to none -np " + std::to_string(n_ranks) + " ";
     command += quoted(AKMON_PROGRAM);

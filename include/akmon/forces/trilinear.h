@@ -140,4 +140,34 @@ namespace akmon
       *out[3]         = b * upper_0 + a * upper_1;
     }
   };
+
+
+  /**
+   * Lumped masses of a cell: row sums of its consistent mass matrix, m_a = int rho N_a dOmega with 2 x 2 x 2
+   * Gauss points. Positive for any valid cell.
+   * @param X        initial positions [node][component], length
+   * @param density  rho_0, mass/volume
+   * @param mass     the cell's share of the nodal masses, mass
+   */
+  template <typename N>
+  void
+  lump_cell_mass(const N (&X)[8][3], const double density, N (&mass)[8])
+  {
+    const auto gradients = TrilinearGradients<N>::evaluate(X);
+    for (auto &of_node : mass)
+      of_node = N(0.);
+    for (unsigned int q = 0; q < 8; ++q)
+      {
+        const Matrix3<N> J = gradients.at(q);
+        const N          j = determinant(J, cofactor(J));
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            double shape_value = density;
+            for (unsigned int d = 0; d < 3; ++d)
+              shape_value *= ((v >> d) & 1) == ((q >> d) & 1) ? TrilinearGradients<N>::a :
+                                                                TrilinearGradients<N>::b;
+            mass[v] += shape_value * j;
+          }
+      }
+  }
 } // namespace akmon

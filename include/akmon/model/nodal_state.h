@@ -11,9 +11,12 @@ namespace akmon
   struct NodalState
   {
     explicit NodalState(const Discretization &discretization)
-      : x(discretization.reference), dx(discretization.make_vector()),
-        dx_next(discretization.make_vector()), force(discretization.make_vector())
+      : x(discretization.reference)
+      , dx(discretization.make_vector())
+      , dx_next(discretization.make_vector())
+      , force(discretization.make_vector())
     {
+      x.update_ghost_values(); // a copy has the owned entries only
     }
 
     double time        = 0.; ///< t_n
