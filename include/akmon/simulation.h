@@ -44,6 +44,12 @@ namespace akmon
       return discretization;
     }
 
+    const InternalForces &
+    stresses() const
+    {
+      return internal_forces;
+    }
+
     const Monitor &
     watch() const
     {
