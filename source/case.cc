@@ -111,6 +111,9 @@ namespace akmon
       prm.enter_subsection("Body force");
       BodyForce::declare(prm);
       prm.leave_subsection();
+      prm.enter_subsection("Contact solver");
+      ContactSolver::declare(prm);
+      prm.leave_subsection();
       prm.enter_subsection("Output");
       OutputParameters::declare(prm);
       prm.leave_subsection();
@@ -429,6 +432,7 @@ namespace akmon
       result.prescribed_motions = parse_items<PrescribedMotion>(prm, names, "Prescribed motion");
       result.surface_loads      = parse_items<SurfaceLoad>(prm, names, "Loads");
       parse_section(prm, "Body force", result.body_force);
+      parse_section(prm, "Contact solver", result.contact_solver);
       result.contacts = parse_items<SurfaceContact>(prm, names, "Contact");
       result.planes   = parse_items<RigidPlane>(prm, names, "Obstacles");
       result.probes   = parse_items<Probe>(prm, names, "Probes");

@@ -27,7 +27,9 @@ namespace akmon
       conditions(discretization, this->parameters.prescribed_motions),
       external_forces(discretization, this->parameters.surface_loads, this->parameters.body_force),
       internal_forces(discretization),
-      contact(discretization, this->parameters.contacts, this->parameters.planes, conditions),
+      contact(discretization,
+              this->parameters.contact_solver,
+              this->parameters.contacts, this->parameters.planes, conditions),
       integrator(discretization, state, parameters.body_force.damping),
       n_cells(discretization.triangulation.n_global_active_cells()), stages(timer)
   {

@@ -28,6 +28,7 @@ namespace akmon
     std::vector<PrescribedMotion> prescribed_motions;
     std::vector<SurfaceLoad> surface_loads;
     BodyForce body_force;
+    ContactSolver contact_solver;
     std::vector<SurfaceContact> contacts;
     std::vector<RigidPlane> planes;
     std::vector<Probe> probes;

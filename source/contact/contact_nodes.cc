@@ -9,119 +9,150 @@ namespace akmon
 {
   using namespace dealii;
 
-  ContactNodes::ContactNodes(const Discretization &discretization)
-    : discretization(discretization), n_owned(discretization.n_owned_nodes)
+  ContactNodes::ContactNodes(const Discretization &           discretization,
+                             const std::vector<unsigned int> &surface_nodes)
+    : communicator(discretization.communicator())
+    , parallel(Utilities::MPI::n_mpi_processes(communicator) > 1)
+    , owned(surface_nodes)
   {
+    Id       n = owned.size(), first = 0;
+    const Id total = Utilities::MPI::sum(n, communicator);
+    MPI_Exscan(&n, &first, 1, Utilities::MPI::mpi_type_id_for_type<Id>, MPI_SUM, communicator);
+    owned_indices.set_size(3 * total);
+    owned_indices.add_range(3 * first, 3 * (first + n));
+
+    // Ghost nodes learn their ids from their owners; doubles hold integers of this size exactly.
+    NodalVector ids = discretization.make_vector();
+    for (unsigned int i = 0; i < owned.size(); ++i)
+      ids.local_element(3 * owned[i]) = first + i;
+    ids.update_ghost_values();
+    ids_of_local.resize(discretization.n_nodes);
+    for (unsigned int node = 0; node < discretization.n_nodes; ++node)
+      ids_of_local[node] = Id(ids.local_element(3 * node));
     reinit({});
   }
 
 
   void
-  ContactNodes::reinit(std::vector<types::global_dof_index> global_nodes)
+  ContactNodes::reinit(const std::vector<Id> &ids)
   {
-    const IndexSet &owned = discretization.partitioner->locally_owned_range();
-    IndexSet ghosts(owned.size());
-    std::sort(global_nodes.begin(), global_nodes.end());
-    global_nodes.erase(std::unique(global_nodes.begin(), global_nodes.end()), global_nodes.end());
-    for (const auto node : global_nodes)
-      if (!owned.is_element(3 * node))
-        ghosts.add_range(3 * node, 3 * node + 3);
-    ghosts.compress();
-    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned,
-                                                                ghosts,
-                                                                discretization.communicator());
-  }
-
-
-  unsigned int
-  ContactNodes::number(const types::global_dof_index global_node) const
-  {
-    return partitioner->global_to_local(3 * global_node) / 3;
+    std::vector<Id> others;
+    for (const Id id : ids)
+      if (!owned_indices.is_element(3 * id))
+        for (unsigned int d = 0; d < 3; ++d)
+          others.push_back(3 * id + d);
+    std::sort(others.begin(), others.end());
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    IndexSet ghosts(owned_indices.size());
+    ghosts.add_indices(others.begin(), others.end());
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned_indices, ghosts, communicator);
   }
 
 
   void
-  ContactNodes::Field::exchange(const ContactNodes &nodes, const NodalVector &owned)
+  ContactNodes::gather(const NodalVector &vector, Field &field) const
   {
-    const auto &partitioner = *nodes.partitioner;
-    owned_values            = owned.begin();
-    n_owned                 = nodes.n_owned;
-    ghost_values.resize(partitioner.n_ghost_indices());
-    if (Utilities::MPI::n_mpi_processes(partitioner.get_mpi_communicator()) == 1)
+    field.values.resize(3 * std::size_t(size()));
+    for (unsigned int i = 0; i < owned.size(); ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        field.values[3 * i + d] = vector.local_element(3 * owned[i] + d);
+    update_ghosts(field);
+  }
+
+
+  void
+  ContactNodes::update_ghosts(Field &field) const
+  {
+    if (!parallel)
       return;
-    std::vector<double> buffer(partitioner.n_import_indices());
+    const std::size_t n = 3 * owned.size();
+    buffer.resize(partitioner->n_import_indices());
     std::vector<MPI_Request> requests;
-    partitioner.export_to_ghosted_array_start<double, MemorySpace::Host>(
+    const ArrayView<double>  ghosts(field.values.data() + n, field.values.size() - n);
+    partitioner->export_to_ghosted_array_start<double, MemorySpace::Host>(
       0,
-      ArrayView<const double>(owned.begin(), 3 * n_owned),
+      ArrayView<const double>(field.values.data(), n),
       ArrayView<double>(buffer.data(), buffer.size()),
-      ArrayView<double>(ghost_values.data(), ghost_values.size()),
+      ghosts,
       requests);
-    partitioner.export_to_ghosted_array_finish<double, MemorySpace::Host>(
-      ArrayView<double>(ghost_values.data(), ghost_values.size()), requests);
+    partitioner->export_to_ghosted_array_finish<double, MemorySpace::Host>(ghosts, requests);
+  }
+
+
+  void
+  ContactNodes::add_to_owners(Field &field) const
+  {
+    if (!parallel)
+      return;
+    const std::size_t n = 3 * owned.size();
+    buffer.resize(partitioner->n_import_indices());
+    std::vector<MPI_Request> requests;
+    const ArrayView<double>  ghosts(field.values.data() + n, field.values.size() - n);
+    const ArrayView<double>  imports(buffer.data(), buffer.size());
+    partitioner->import_from_ghosted_array_start<double, MemorySpace::Host>(
+      VectorOperation::add, 1, ghosts, imports, requests);
+    partitioner->import_from_ghosted_array_finish<double, MemorySpace::Host>(
+      VectorOperation::add,
+      ArrayView<const double>(buffer.data(), buffer.size()),
+      ArrayView<double>(field.values.data(), n),
+      ghosts,
+      requests);
   }
 
 
   void
   ContactNodes::send_to_owners(std::vector<Contribution> &contributions) const
   {
-    const MPI_Comm communicator = discretization.communicator();
-    if (Utilities::MPI::n_mpi_processes(communicator) > 1)
-    {
-      static_assert(std::is_trivially_copyable_v<Contribution>);
-      // The partners are those of the nodal exchange, the other way round.
-      std::vector<std::vector<char>> outgoing;
-      std::vector<MPI_Request> requests;
-      unsigned int first = n_owned;
-      const int tag      = 4711;
-      for (const auto &[rank, n_entries] : partitioner->ghost_targets())
+    if (parallel)
       {
-        const unsigned int last = first + n_entries / 3;
-        outgoing.emplace_back();
-        for (auto contribution : contributions)
-          if (contribution.node >= first && contribution.node < last)
+        static_assert(std::is_trivially_copyable_v<Contribution>);
+        constexpr int tag = 4711;
+
+        // The partners are those of the ghost exchange, the other way round.
+        std::vector<std::vector<Contribution>> outgoing;
+        std::vector<MPI_Request>               requests(partitioner->ghost_targets().size());
+        unsigned int                           first = n_owned();
+        for (const auto &[rank, n_entries] : partitioner->ghost_targets())
           {
-            contribution.node       = global_number(contribution.node);
-            const char *const bytes = reinterpret_cast<const char *>(&contribution);
-            outgoing.back().insert(outgoing.back().end(), bytes, bytes + sizeof(contribution));
+            const Id lowest = id(first), highest = id(first + n_entries / 3 - 1);
+            first += n_entries / 3;
+            outgoing.emplace_back();
+            for (const auto &contribution : contributions)
+              if (contribution.node >= lowest && contribution.node <= highest)
+                outgoing.back().push_back(contribution);
           }
-        first = last;
+        for (unsigned int i = 0; i < outgoing.size(); ++i)
+          MPI_Isend(outgoing[i].data(),
+                    outgoing[i].size() * sizeof(Contribution),
+                    MPI_BYTE,
+                    partitioner->ghost_targets()[i].first,
+                    tag,
+                    communicator,
+                    &requests[i]);
+        contributions.erase(std::remove_if(contributions.begin(),
+                                           contributions.end(),
+                                           [&](const auto &c) {
+                                             return !owned_indices.is_element(3 * c.node);
+                                           }),
+                            contributions.end());
+        for (const auto &source : partitioner->import_targets())
+          {
+            MPI_Status status;
+            int        n_bytes = 0;
+            MPI_Probe(source.first, tag, communicator, &status);
+            MPI_Get_count(&status, MPI_BYTE, &n_bytes);
+            const std::size_t n_before = contributions.size();
+            contributions.resize(n_before + n_bytes / sizeof(Contribution));
+            MPI_Recv(contributions.data() + n_before,
+                     n_bytes,
+                     MPI_BYTE,
+                     source.first,
+                     tag,
+                     communicator,
+                     MPI_STATUS_IGNORE);
+          }
+        MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
       }
-      unsigned int target = 0;
-      requests.resize(outgoing.size());
-      for (const auto &[rank, n_entries] : partitioner->ghost_targets())
-      {
-        (void)n_entries;
-        MPI_Isend(outgoing[target].data(),
-                  outgoing[target].size(),
-                  MPI_CHAR,
-                  rank,
-                  tag,
-                  communicator,
-                  &requests[target]);
-        ++target;
-      }
-      contributions.erase(std::remove_if(contributions.begin(),
-                                         contributions.end(),
-                                         [&](const auto &c) { return !is_owned(c.node); }),
-                          contributions.end());
-      for (const auto &[rank, n_entries] : partitioner->import_targets())
-      {
-        (void)n_entries;
-        MPI_Status status;
-        int n_bytes = 0;
-        MPI_Probe(rank, tag, communicator, &status);
-        MPI_Get_count(&status, MPI_CHAR, &n_bytes);
-        std::vector<Contribution> incoming(n_bytes / sizeof(Contribution));
-        MPI_Recv(incoming.data(), n_bytes, MPI_CHAR, rank, tag, communicator, MPI_STATUS_IGNORE);
-        for (auto &contribution : incoming)
-        {
-          contribution.node = number(contribution.node);
-          contributions.push_back(contribution);
-        }
-      }
-      MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-    }
     std::sort(contributions.begin(), contributions.end(), [](const auto &a, const auto &b) {
       return std::tie(a.node, a.interface, a.slave) < std::tie(b.node, b.interface, b.slave);
     });

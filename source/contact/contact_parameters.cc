@@ -1,6 +1,8 @@
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/parameters.h>
 
+#include <deal.II/base/utilities.h>
+
 namespace akmon
 {
   using dealii::Patterns::Anything;
@@ -9,32 +11,82 @@ namespace akmon
   using dealii::Patterns::Selection;
 
   void
+  ContactSolver::declare(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry("Type",
+                      "coupled",
+                      Selection("coupled|decoupled"),
+                      "Contact forces of all pairs at once (exact for any meshes), or every pair alone "
+                      "as in the paper (exact for node pairs and rigid planes only)");
+    prm.declare_entry("Tolerance",
+                      "1e-10",
+                      Double(0.),
+                      "Largest remaining gap violation of the coupled solution, relative to the cell "
+                      "size (dimensionless)");
+    prm.declare_entry("Maximum iterations",
+                      "1000",
+                      dealii::Patterns::Integer(1),
+                      "Applications of the Delassus operator that one coupled solution may take");
+    prm.declare_entry("Release speed",
+                      "1e-4",
+                      Double(0.),
+                      "Speed at which a penetration found by the search is taken back, relative to the "
+                      "dilatational wave speed (dimensionless); it never grows");
+  }
+
+
+  void
+  ContactSolver::parse(dealii::ParameterHandler &prm)
+  {
+    type          = prm.get("Type") == "coupled" ? Type::coupled : Type::decoupled;
+    tolerance     = prm.get_double("Tolerance");
+    limit         = prm.get_integer("Maximum iterations");
+    release_speed = prm.get_double("Release speed");
+  }
+
+
+  void
   ContactLaw::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry("Friction coefficient",
                       "0",
                       Double(0.),
-                      "Coulomb's coefficient of friction mu_c (dimensionless)");
-    prm
-      .declare_entry("Stick",
-                     "forward",
-                     Selection("forward|central"),
-                     "What sticking makes zero: the forward increment (a stuck node rests), or the "
-                     "central velocity as printed in the paper (it jitters)");
-    prm.declare_entry("Release fraction",
-                      "0.05",
-                      Double(0., 1.),
-                      "Part of a penetration found by the search that a step may take back "
-                      "(dimensionless); the penetration never grows");
+                      "Coulomb's coefficient of friction mu_c, static (dimensionless)");
+    prm.declare_entry("Kinetic friction coefficient",
+                      "same",
+                      Anything(),
+                      "Coefficient mu_k at high slip speed, or 'same' as the static one "
+                      "(dimensionless)");
+    prm.declare_entry("Friction decay",
+                      "0",
+                      Double(0.),
+                      "Decay d from static to kinetic friction, mu = mu_k + (mu_s - mu_k) exp(-d |v|) "
+                      "(time/length)");
+    prm.declare_entry("Stick",
+                      "forward",
+                      Selection("forward|central"),
+                      "What sticking makes zero: the forward increment (a stuck node rests), or the "
+                      "central velocity as printed in the paper (it jitters; decoupled solver only)");
   }
 
 
   void
-  ContactLaw::parse(dealii::ParameterHandler &prm)
+  ContactLaw::parse(dealii::ParameterHandler &prm, const std::string &section)
   {
-    friction.friction_coefficient = prm.get_double("Friction coefficient");
-    stick                         = prm.get("Stick") == "central" ? Stick::central : Stick::forward;
-    release_fraction              = prm.get_double("Release fraction");
+    friction.static_coefficient = friction.kinetic_coefficient =
+      prm.get_double("Friction coefficient");
+    friction.decay            = prm.get_double("Friction decay");
+    stick                     = prm.get("Stick") == "central" ? Stick::central : Stick::forward;
+    const std::string kinetic = prm.get("Kinetic friction coefficient");
+    if (kinetic != "same")
+      {
+        if (!Double(0., friction.static_coefficient).match(kinetic))
+          throw InputError(section,
+                           "Kinetic friction coefficient",
+                           kinetic,
+                           "allowed are 'same' and numbers from 0 to the friction coefficient");
+        friction.kinetic_coefficient = dealii::Utilities::string_to_double(kinetic);
+      }
   }
 
 
@@ -44,7 +96,8 @@ namespace akmon
     prm.declare_entry("Slave",
                       "",
                       List(Anything()),
-                      "Boundary parts BODY:PART whose nodes are kept out of the master");
+                      "Boundary parts BODY:PART whose nodes are kept out of the master; 'all' is every "
+                      "surface of every body");
     prm.declare_entry("Master", "", List(Anything()), "Boundary parts BODY:PART made of segments");
     prm.declare_entry(
       "Gap model",
@@ -52,6 +105,11 @@ namespace akmon
       Selection("point to segment|point to point"),
       "Partner of a slave node: the closest point of the master faces, or the closest "
       "master node");
+    prm.declare_entry("Pass",
+                      "symmetric",
+                      Selection("symmetric|single"),
+                      "Whether both sides are slave and master (coupled solver only), or slaves are "
+                      "on one side only");
     prm.declare_entry(
       "Rim tolerance",
       "0.01",
@@ -65,7 +123,7 @@ namespace akmon
   void
   SurfaceContact::parse(dealii::ParameterHandler &prm, const std::string &section)
   {
-    ContactLaw::parse(prm);
+    ContactLaw::parse(prm, section);
     slaves  = split_list(prm.get("Slave"));
     masters = split_list(prm.get("Master"));
     if (slaves.empty())
@@ -74,6 +132,7 @@ namespace akmon
       throw InputError(section, "Master", "(none)", "allowed are boundary parts BODY:PART");
     gap_model     = prm.get("Gap model") == "point to point" ? GapModel::point_to_point
                                                              : GapModel::point_to_segment;
+    symmetric     = prm.get("Pass") == "symmetric";
     rim_tolerance = prm.get_double("Rim tolerance");
   }
 
@@ -94,7 +153,7 @@ namespace akmon
   void
   RigidPlane::parse(dealii::ParameterHandler &prm, const std::string &section)
   {
-    ContactLaw::parse(prm);
+    ContactLaw::parse(prm, section);
     slaves = split_list(prm.get("Surfaces"));
     if (slaves.empty())
       throw InputError(section, "Surfaces", "(none)", "allowed are boundary parts BODY:PART");

@@ -1,54 +1,48 @@
 #include <akmon/contact/mobility.h>
 
-#include <deal.II/base/mpi.h>
-
 namespace akmon
 {
   using namespace dealii;
 
   Mobility::Mobility(const Discretization &discretization, const EssentialConditions &conditions)
-    : discretization(discretization), conditions(conditions), n_owned(discretization.n_owned_nodes)
-  {
-  }
+    : discretization(discretization)
+    , conditions(conditions)
+  {}
 
 
   void
   Mobility::reinit(const ContactNodes &nodes)
   {
-    if (Utilities::MPI::n_mpi_processes(discretization.communicator()) == 1)
-      return;
-    NodalVector diagonal     = discretization.make_vector(),
-                off_diagonal = discretization.make_vector();
-    for (unsigned int node = 0; node < n_owned; ++node)
-    {
-      const auto W = of_owned(node);
-      for (unsigned int d = 0; d < 3; ++d)
+    ContactNodes::Field diagonal, off_diagonal;
+    nodes.make(diagonal);
+    nodes.make(off_diagonal);
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       {
-        diagonal.local_element(3 * node + d)     = W[d][d];
-        off_diagonal.local_element(3 * node + d) = W[(d + 1) % 3][(d + 2) % 3];
+        const unsigned int node = nodes.local_node(i);
+        const auto         W_i  = conditions.projector(node) / discretization.mass[node];
+        diagonal.set(i, Tensor<1, 3>({W_i[0][0], W_i[1][1], W_i[2][2]}));
+        off_diagonal.set(i, Tensor<1, 3>({W_i[1][2], W_i[2][0], W_i[0][1]}));
       }
-    }
-    ContactNodes::Field at_diagonal, at_off_diagonal;
-    at_diagonal.exchange(nodes, diagonal);
-    at_off_diagonal.exchange(nodes, off_diagonal);
-    ghosts.resize(nodes.n_ghosts());
-    for (unsigned int i = 0; i < ghosts.size(); ++i)
+    nodes.update_ghosts(diagonal);
+    nodes.update_ghosts(off_diagonal);
+    W.resize(nodes.size());
+    for (unsigned int i = 0; i < W.size(); ++i)
       for (unsigned int d = 0; d < 3; ++d)
-      {
-        ghosts[i][d][d]                     = at_diagonal[n_owned + i][d];
-        ghosts[i][(d + 1) % 3][(d + 2) % 3] = at_off_diagonal[n_owned + i][d];
-      }
+        {
+          W[i][d][d]                     = diagonal[i][d];
+          W[i][(d + 1) % 3][(d + 2) % 3] = off_diagonal[i][d];
+        }
   }
 
 
   double
-  Mobility::along(const ContactPair &pair,
+  Mobility::along(const ContactPair & pair,
                   const Tensor<1, 3> &direction,
-                  const double mass_factor) const
+                  const double        mass_factor) const
   {
-    double sum = direction * ((*this)[pair.slave] * direction);
-    for (unsigned int k = 0; k < pair.n_masters; ++k)
-      sum += pair.N[k] * pair.N[k] * (direction * ((*this)[pair.masters[k]] * direction));
+    double sum = 0.;
+    for (unsigned int k = 0; k < pair.n_nodes; ++k)
+      sum += pair.weights[k] * pair.weights[k] * (direction * (W[pair.nodes[k]] * direction));
     return sum / mass_factor;
   }
 } // namespace akmon

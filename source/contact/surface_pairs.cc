@@ -50,7 +50,7 @@ namespace akmon
                                  const Tensor<1, 3> &outward,
                                  Partner &partner) const
   {
-    const unsigned int node = slaves[slave].node;
+    const unsigned int node = slaves[slave].number;
     const auto point        = x[node];
     double best             = std::numeric_limits<double>::max();
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
@@ -132,45 +132,52 @@ namespace akmon
 
 
   void
-  SurfaceSearch::find_pairs(const NodalVector &positions,
+  SurfaceSearch::find_pairs(const NodalVector &        positions,
                             const ContactNodes::Field &x,
-                            std::vector<ContactPair> &pairs) const
+                            std::vector<ContactPair> & pairs) const
   {
+    // A node further inside than this part of the cell behind the face belongs to another face's side.
+    constexpr double deepest_part = 0.5;
+
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-    {
-      if (slaves[s].first_candidate == slaves[s + 1].first_candidate)
-        continue;
-      Partner partner;
-      if (!closest_segment(x, s, slave_normal(positions, s), partner))
-        continue;
-      if (contact.gap_model == SurfaceContact::GapModel::point_to_point)
-        snap_to_closest_node(x, x[slaves[s].node], partner);
+      {
+        if (slaves[s].first_candidate == slaves[s + 1].first_candidate)
+          continue;
+        Partner partner;
+        if (!closest_segment(x, s, slave_normal(positions, s), partner))
+          continue;
+        if (contact.gap_model == SurfaceContact::GapModel::point_to_point)
+          snap_to_closest_node(x, x[slaves[s].number], partner);
 
-      bool on_rim;
-      const auto normal      = feature_normal(x, partner, on_rim);
-      const auto &face       = masters[partner.face];
-      const double gap       = normal * partner.projection.offset;
-      const double overhang  = (partner.projection.offset - gap * normal).norm();
-      const double face_size = std::sqrt(area_vector(segment(x, face)).norm());
-      const double allowed   = contact.gap_model == SurfaceContact::GapModel::point_to_point
-                                 ? 0.5 * face_size
-                                 : contact.rim_tolerance * face_size;
-      if (std::abs(gap) > search_radius || (on_rim && overhang > allowed))
-        continue;
+        bool         on_rim;
+        const auto   normal    = feature_normal(x, partner, on_rim);
+        const auto & face      = masters[partner.face];
+        const double gap       = normal * partner.projection.offset;
+        const double overhang  = (partner.projection.offset - gap * normal).norm();
+        const double face_size = std::sqrt(area_vector(segment(x, face)).norm());
+        const double allowed   = contact.gap_model == SurfaceContact::GapModel::point_to_point ?
+                                   0.5 * face_size :
+                                   contact.rim_tolerance * face_size;
+        if (gap > search_radius || gap < -deepest_part * face.depth || (on_rim && overhang > allowed))
+          continue;
 
-      ContactPair pair;
-      pair.interface = interface;
-      pair.slave     = slaves[s].node;
-      pair.normal    = normal;
-      pair.gap       = gap;
-      pair.size      = slaves[s].size;
-      for (unsigned int k = 0; k < 4; ++k)
-        if (std::abs(partner.projection.N[k]) > 0.)
-        {
-          pair.masters[pair.n_masters] = face.nodes[k];
-          pair.N[pair.n_masters++]     = partner.projection.N[k];
-        }
-      pairs.push_back(pair);
-    }
+        ContactPair pair;
+        pair.interface  = interface;
+        pair.reversed   = reversed;
+        pair.slave      = slaves[s].node;
+        pair.slave_id   = slaves[s].id;
+        pair.normal     = normal;
+        pair.gap        = gap;
+        pair.size       = slaves[s].size;
+        pair.nodes[0]   = slaves[s].number;
+        pair.weights[0] = 1.;
+        for (unsigned int k = 0; k < 4; ++k)
+          if (partner.projection.N[k] != 0.)
+            {
+              pair.nodes[pair.n_nodes]     = face.nodes[k];
+              pair.weights[pair.n_nodes++] = -partner.projection.N[k];
+            }
+        pairs.push_back(pair);
+      }
   }
 } // namespace akmon

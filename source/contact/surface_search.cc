@@ -66,23 +66,21 @@ namespace akmon
 
   SurfaceSearch::SurfaceSearch(const Discretization &discretization,
                                const SurfaceContact &contact,
-                               const unsigned int interface)
-    : discretization(discretization), contact(contact), interface(interface),
-      slave_faces(select_faces(discretization, contact, "Slave", contact.slaves)),
-      master_faces(select_faces(discretization, contact, "Master", contact.masters))
+                               const unsigned int    interface,
+                               const bool            reversed)
+    : discretization(discretization)
+    , contact(contact)
+    , interface(interface)
+    , reversed(reversed)
+    , slave_faces(select_faces(discretization, contact, "Slave", contact.slaves))
+    , master_faces(select_faces(discretization, contact, "Master", contact.masters))
   {
-    search_radius = std::max(mean_size(discretization, slave_faces),
-                             mean_size(discretization, master_faces)) *
-                    0.5;
+    if (reversed)
+      std::swap(slave_faces, master_faces);
+    search_radius =
+      0.5 * std::max(mean_size(discretization, slave_faces), mean_size(discretization, master_faces));
     faces = slave_faces;
     faces.insert(faces.end(), master_faces.begin(), master_faces.end());
-    for (const auto &face : faces)
-      for (const unsigned int node : face.nodes)
-        if (node < discretization.n_owned_nodes)
-          owned_surface_nodes.push_back(node);
-    std::sort(owned_surface_nodes.begin(), owned_surface_nodes.end());
-    owned_surface_nodes.erase(std::unique(owned_surface_nodes.begin(), owned_surface_nodes.end()),
-                              owned_surface_nodes.end());
     collect_slaves();
   }
 
@@ -96,85 +94,96 @@ namespace akmon
         if (node < discretization.n_owned_nodes)
           incidence.emplace_back(node, f);
     std::sort(incidence.begin(), incidence.end());
+    const auto new_slave = [&](const unsigned int node) {
+      Slave slave{};
+      slave.node       = node;
+      slave.size       = std::numeric_limits<double>::max();
+      slave.first_face = slave_face_list.size();
+      slaves.push_back(slave);
+    };
     for (const auto &[node, f] : incidence)
-    {
-      if (slaves.empty() || slaves.back().node != node)
-        slaves.push_back(
-          {node, std::numeric_limits<double>::max(), (unsigned int)slave_face_list.size(), 0});
-      slave_face_list.push_back(f);
-      for (unsigned int k = 0; k < 4; ++k)
-        slaves.back().size = std::min(slaves.back().size,
-                                      (at_node(discretization.reference, slave_faces[f].nodes[k]) -
-                                       at_node(discretization.reference,
-                                               slave_faces[f].nodes[(k + 1) % 4]))
-                                        .norm());
-    }
-    slaves.push_back({numbers::invalid_unsigned_int, 0., (unsigned int)slave_face_list.size(), 0});
+      {
+        if (slaves.empty() || slaves.back().node != node)
+          new_slave(node);
+        slave_face_list.push_back(f);
+        for (unsigned int k = 0; k < 4; ++k)
+          slaves.back().size =
+            std::min(slaves.back().size,
+                     (at_node(discretization.reference, slave_faces[f].nodes[k]) -
+                      at_node(discretization.reference, slave_faces[f].nodes[(k + 1) % 4]))
+                       .norm());
+      }
+    new_slave(numbers::invalid_unsigned_int);
   }
 
 
-  std::vector<types::global_dof_index>
-  SurfaceSearch::fetch_master_faces(const NodalVector &x)
+  // Per rank the box around its slaves, lower corner and upper corner, widened so that it meets every face
+  // within the radius of a slave and the neighbours of such faces (whose normals count at edges and
+  // vertices). Empty (upper below lower) for ranks without slaves.
+  std::vector<std::array<double, 6>>
+  SurfaceSearch::slave_boxes_of_all_ranks(const NodalVector &x) const
   {
-    const MPI_Comm communicator = discretization.communicator();
-    const unsigned int me       = Utilities::MPI::this_mpi_process(communicator);
-
-    std::vector<Point<3>> slave_points;
-    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-      slave_points.emplace_back(at_node(x, slaves[s].node));
     double largest_diagonal = 0.;
     for (const auto &face : master_faces)
       for (unsigned int k = 0; k < 2; ++k)
         largest_diagonal = std::max(largest_diagonal,
-                                    (at_node(x, face.nodes[k]) - at_node(x, face.nodes[k + 2]))
-                                      .norm());
-    // Neighbours of faces within the radius are wanted too, for normals at edges and vertices.
-    const double margin = search_radius + Utilities::MPI::max(largest_diagonal, communicator);
+                                    (at_node(x, face.nodes[k]) - at_node(x, face.nodes[k + 2])).norm());
+    const double margin =
+      search_radius + Utilities::MPI::max(largest_diagonal, discretization.communicator());
 
-    // An empty box for ranks without slaves.
-    std::pair<std::array<double, 3>, std::array<double, 3>> corners{{{1., 1., 1.}}, {{0., 0., 0.}}};
-    if (!slave_points.empty())
-    {
-      const auto points = box_around(slave_points, margin).get_boundary_points();
-      for (unsigned int d = 0; d < 3; ++d)
+    std::vector<Point<3>> points;
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      points.emplace_back(at_node(x, slaves[s].node));
+    std::array<double, 6> box = {{1., 1., 1., 0., 0., 0.}};
+    if (!points.empty())
       {
-        corners.first[d]  = points.first[d];
-        corners.second[d] = points.second[d];
+        const auto corners = box_around(points, margin).get_boundary_points();
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            box[d]     = corners.first[d];
+            box[3 + d] = corners.second[d];
+          }
       }
-    }
-    const auto slave_boxes = Utilities::MPI::all_gather(communicator, corners);
+    return Utilities::MPI::all_gather(discretization.communicator(), box);
+  }
+
+
+  std::vector<ContactNodes::Id>
+  SurfaceSearch::fetch_master_faces(const ContactNodes &nodes, const NodalVector &x)
+  {
+    const MPI_Comm     communicator = discretization.communicator();
+    const unsigned int me           = Utilities::MPI::this_mpi_process(communicator);
+    const auto         slave_boxes  = slave_boxes_of_all_ranks(x);
 
     std::map<unsigned int, std::vector<FaceMessage>> outgoing;
     for (const auto &face : master_faces)
       if (face.owned)
-      {
-        std::vector<Point<3>> points;
-        FaceMessage message{face.id, {}};
-        for (unsigned int k = 0; k < 4; ++k)
         {
-          points.emplace_back(at_node(x, face.nodes[k]));
-          message.nodes[k] = discretization.global_node(face.nodes[k]);
+          std::vector<Point<3>> points;
+          FaceMessage           message{face.id, face.body, face.depth, {}};
+          for (unsigned int k = 0; k < 4; ++k)
+            {
+              points.emplace_back(at_node(x, face.nodes[k]));
+              message.nodes[k] = nodes.id_of_local(face.nodes[k]);
+            }
+          const auto box = BoundingBox<3>(points).get_boundary_points();
+          for (unsigned int rank = 0; rank < slave_boxes.size(); ++rank)
+            {
+              bool overlaps = true;
+              for (unsigned int d = 0; d < 3; ++d)
+                overlaps = overlaps && box.first[d] <= slave_boxes[rank][3 + d] &&
+                           box.second[d] >= slave_boxes[rank][d];
+              if (overlaps)
+                outgoing[rank].push_back(message);
+            }
         }
-        const auto box = BoundingBox<3>(points).get_boundary_points();
-        for (unsigned int rank = 0; rank < slave_boxes.size(); ++rank)
-        {
-          bool overlaps = true;
-          for (unsigned int d = 0; d < 3; ++d)
-            overlaps = overlaps && box.first[d] <= slave_boxes[rank].second[d] &&
-                       box.second[d] >= slave_boxes[rank].first[d];
-          if (overlaps)
-            outgoing[rank].push_back(message);
-        }
-      }
     fetched = std::move(outgoing[me]);
     outgoing.erase(me);
     for (const auto &[rank, messages] : Utilities::MPI::some_to_some(communicator, outgoing))
       fetched.insert(fetched.end(), messages.begin(), messages.end());
-    std::sort(fetched.begin(), fetched.end(), [](const auto &a, const auto &b) {
-      return a.id < b.id;
-    });
+    std::sort(fetched.begin(), fetched.end(), [](const auto &a, const auto &b) { return a.id < b.id; });
 
-    std::vector<types::global_dof_index> needed;
+    std::vector<ContactNodes::Id> needed;
     for (const auto &face : fetched)
       needed.insert(needed.end(), face.nodes.begin(), face.nodes.end());
     return needed;
@@ -189,7 +198,7 @@ namespace akmon
     std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
     for (const auto &message : fetched)
     {
-      MasterFace face{message.id, {}};
+      MasterFace face{message.body, message.depth, {}};
       std::vector<Point<3>> points;
       for (unsigned int k = 0; k < 4; ++k)
       {
@@ -217,7 +226,9 @@ namespace akmon
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
     {
       slaves[s].first_candidate = candidates.size();
-      tree.query(boost::geometry::index::intersects(Point<3>(x[slaves[s].node])),
+      slaves[s].id              = nodes.id_of_local(slaves[s].node);
+      slaves[s].number          = nodes.number(slaves[s].id);
+      tree.query(boost::geometry::index::intersects(Point<3>(x[slaves[s].number])),
                  boost::make_function_output_iterator(
                    [&](const auto &entry) { candidates.push_back(entry.second); }));
       std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());

@@ -262,7 +262,8 @@ namespace akmon
                             cell.cell->face(f)->boundary_id(),
                             6 * cell.id + f,
                             cell.body,
-                            cell.owned};
+                            cell.owned,
+                            cell.cell->measure() / cell.cell->face(f)->measure()};
           for (unsigned int v = 0; v < 4; ++v)
             face.nodes[v] = cell.nodes[corners[v]];
           faces.push_back(face);
@@ -334,6 +335,20 @@ namespace akmon
                                const std::string &key,
                                const std::string &part) const
   {
+    if (part == "all")
+    {
+      std::set<types::boundary_id> every;
+      for (const auto &of_body : parts)
+        every.insert(of_body.at("all").begin(), of_body.at("all").end());
+      return every;
+    }
+    if (part == "all")
+      {
+        std::set<types::boundary_id> every;
+        for (const auto &of_body : parts)
+          every.insert(of_body.at("all").begin(), of_body.at("all").end());
+        return every;
+      }
     const auto colon        = part.find(':');
     const std::string name  = colon == std::string::npos ? "all" : part.substr(colon + 1);
     const unsigned int body = body_index(section, key, part.substr(0, colon));

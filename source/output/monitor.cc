@@ -40,7 +40,8 @@ namespace akmon
                          "max_penetration",
                          "max_penetration_rel",
                          "active_pairs",
-                         "sticking_pairs"});
+                         "sticking_pairs",
+                         "contact_iterations"});
     for (const auto &name : watched.contact.names())
       for (const char *const axis : {"x", "y", "z"})
         history.add_column(name + ".force_" + axis);
@@ -181,6 +182,7 @@ namespace akmon
       for (unsigned int d = 0; d < 3; ++d)
         sums.push_back(force[d]);
     Utilities::MPI::sum(sums, communicator, sums);
+    sums.insert(sums.begin() + 2, double(report.iterations));
     append(sums);
     append(probes.values(watched.state));
     history.write_row(row);

@@ -8,83 +8,153 @@
 namespace akmon
 {
   /**
-   * The nodes that contact needs on this rank: the owned ones under their local numbers, then those
-   * master nodes that other ranks own. Changes only when the contact candidates change.
+   * The nodes of all contact surfaces, in a numbering of their own: the owned ones in the order of their
+   * local numbers, then those that this rank may meet but other ranks own. Contact works on short arrays
+   * in this numbering. Ids are the same numbering over all ranks; their order is that of the global node
+   * numbers and does not depend on the number of ranks.
    */
   class ContactNodes
   {
   public:
-    explicit ContactNodes(const Discretization &discretization);
+    using Id = dealii::types::global_dof_index;
 
-    /// Take up the given global nodes (owned ones are ignored).
+    /// @param surface_nodes  owned nodes on any contact surface, sorted and unique
+    ContactNodes(const Discretization &discretization, const std::vector<unsigned int> &surface_nodes);
+
+    /// Take up nodes of other ranks by their ids (owned ones are ignored; collective).
     void
-    reinit(std::vector<dealii::types::global_dof_index> global_nodes);
+    reinit(const std::vector<Id> &ids);
 
-    /// Contact number of a global node that is owned or was given to reinit().
     unsigned int
-    number(const dealii::types::global_dof_index global_node) const;
+    n_owned() const
+    {
+      return owned.size();
+    }
 
-    dealii::types::global_dof_index
-    global_number(const unsigned int number) const
+    MPI_Comm
+    get_communicator() const
+    {
+      return communicator;
+    }
+
+    bool
+    is_parallel() const
+    {
+      return parallel;
+    }
+
+    /// Number of owned nodes and nodes of other ranks.
+    unsigned int
+    size() const
+    {
+      return owned.size() + partitioner->n_ghost_indices() / 3;
+    }
+
+    /// Id of a local node (owned or ghost of the discretization) on a contact surface.
+    Id
+    id_of_local(const unsigned int node) const
+    {
+      return ids_of_local[node];
+    }
+
+    /// Contact number of an id that is owned or was given to reinit().
+    unsigned int
+    number(const Id id) const
+    {
+      return partitioner->global_to_local(3 * id) / 3;
+    }
+
+    /// Local number of an owned contact node.
+    unsigned int
+    local_node(const unsigned int number) const
+    {
+      return owned[number];
+    }
+
+    Id
+    id(const unsigned int number) const
     {
       return partitioner->local_to_global(3 * number) / 3;
     }
 
-    /// Number of nodes that other ranks own.
-    unsigned int
-    n_ghosts() const
-    {
-      return partitioner->n_ghost_indices() / 3;
-    }
-
-    bool
-    is_owned(const unsigned int number) const
-    {
-      return number < n_owned;
-    }
-
-    /// A nodal quantity with three components at the contact nodes.
+    /// Three components per contact node.
     class Field
     {
     public:
-      /// Fetch the values of the nodes that other ranks own; owned values are read from @p owned
-      /// itself.
-      void
-      exchange(const ContactNodes &nodes, const NodalVector &owned);
-
       dealii::Tensor<1, 3>
       operator[](const unsigned int number) const
       {
-        const double *const value = number < n_owned ? owned_values + 3 * number
-                                                     : &ghost_values[3 * (number - n_owned)];
+        const double *const value = &values[3 * std::size_t(number)];
         return dealii::Tensor<1, 3>({value[0], value[1], value[2]});
       }
 
+      void
+      add(const unsigned int number, const dealii::Tensor<1, 3> &increment)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          values[3 * std::size_t(number) + d] += increment[d];
+      }
+
+      void
+      set(const unsigned int number, const dealii::Tensor<1, 3> &value)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          values[3 * std::size_t(number) + d] = value[d];
+      }
+
+      void
+      clear()
+      {
+        std::fill(values.begin(), values.end(), 0.);
+      }
+
     private:
-      const double *owned_values = nullptr;
-      unsigned int n_owned       = 0;
-      std::vector<double> ghost_values;
+      friend class ContactNodes;
+      std::vector<double> values;
     };
+
+    /// A field of zeros.
+    void
+    make(Field &field) const
+    {
+      field.values.assign(3 * std::size_t(size()), 0.);
+    }
+
+    /// Values of a nodal vector at all contact nodes (collective).
+    void
+    gather(const NodalVector &vector, Field &field) const;
+
+    /// Bring the owners' values to the other ranks (collective).
+    void
+    update_ghosts(Field &field) const;
+
+    /// Add what other ranks have gathered for a node to its owner's value (collective).
+    void
+    add_to_owners(Field &field) const;
 
     /// A force on a node that came out of a pair.
     struct Contribution
     {
-      unsigned int node; ///< contact number; at the owner: local number
-      unsigned int interface;
-      dealii::types::global_dof_index slave; ///< global
+      Id                   node;
+      unsigned int         interface;
+      Id                   slave;
       dealii::Tensor<1, 3> normal, tangential;
     };
 
     /**
-     * Bring every contribution to the owner of its node. On return all are on owned nodes and
-     * sorted by node, interface and slave: sums over them do not depend on the number of ranks.
+     * Bring every contribution to the owner of its node. On return all are on owned nodes and sorted by
+     * node, interface and slave: sums over them do not depend on the number of ranks (collective).
      */
     void
     send_to_owners(std::vector<Contribution> &contributions) const;
 
   private:
-    const Discretization &discretization;
-    unsigned int n_owned;
+    MPI_Comm                                             communicator;
+    bool                                                 parallel;
+    std::vector<unsigned int>                            owned;        ///< local numbers
+    std::vector<Id>                                      ids_of_local; ///< by local node
     std::shared_ptr<dealii::Utilities::MPI::Partitioner> partitioner;
+    dealii::IndexSet                                     owned_indices;
+    mutable std::vector<double>                          buffer;
   };
 } // namespace akmon

@@ -10,6 +10,28 @@
 
 namespace akmon
 {
+  /// How the contact forces of a step are found. Section "Contact solver".
+  struct ContactSolver
+  {
+    enum class Type
+    {
+      coupled,  ///< all pairs at once through the full Delassus operator (Problem 2)
+      decoupled ///< every pair alone (Problem 3)
+    };
+
+    Type         type          = Type::coupled;
+    double       tolerance     = 1e-10; ///< of gaps, relative to the cell size
+    unsigned int limit         = 1000;  ///< applications of the operator in one solve
+    double       release_speed = 1e-4;  ///< over the dilatational wave speed
+
+    static void
+    declare(dealii::ParameterHandler &prm);
+
+    void
+    parse(dealii::ParameterHandler &prm);
+  };
+
+
   /// What contact pairs and obstacles have in common: who touches, and how the touch behaves.
   struct ContactLaw
   {
@@ -19,17 +41,17 @@ namespace akmon
       central  ///< the paper's: zeroes the central velocity, so the node keeps its approach jitter
     };
 
-    std::string name;
+    std::string              name;
     std::vector<std::string> slaves; ///< "BODY:PART"
-    Coulomb friction;
-    Stick stick = Stick::forward;
-    double release_fraction; ///< of a found penetration, per step
+    Coulomb                  friction;
+    Stick                    stick = Stick::forward;
 
     static void
     declare(dealii::ParameterHandler &prm);
 
+    /// Throws InputError where a value is inadmissible.
     void
-    parse(dealii::ParameterHandler &prm);
+    parse(dealii::ParameterHandler &prm, const std::string &section);
   };
 
 
@@ -43,8 +65,9 @@ namespace akmon
     };
 
     std::vector<std::string> masters; ///< "BODY:PART"
-    GapModel gap_model   = GapModel::point_to_segment;
-    double rim_tolerance = 0.; ///< of a face's size
+    GapModel                 gap_model     = GapModel::point_to_segment;
+    bool                     symmetric     = true; ///< both sides are slave and master
+    double                   rim_tolerance = 0.;   ///< of a face's size
 
     static void
     declare(dealii::ParameterHandler &prm);

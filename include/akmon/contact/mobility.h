@@ -9,42 +9,41 @@
 namespace akmon
 {
   /**
-   * What a unit force does to a contact node: W = P/m with the projector P on the directions in
-   * which its motion is not prescribed. The Delassus operator A = G m*^{-1} G^T (65)(76) is made of
-   * W / c, c the effective mass factor of the step.
+   * What a unit force does to a contact node: W = P/m with the projector P on the directions in which its
+   * motion is not prescribed. The Delassus operator A = G m*^{-1} G^T (65)(76) is made of W / c, c the
+   * effective mass factor of the step.
    */
   class Mobility
   {
   public:
     Mobility(const Discretization &discretization, const EssentialConditions &conditions);
 
-    /// Fetch W of the nodes that other ranks own (collective).
+    /// Compute W of all contact nodes (collective); whenever their set has changed.
     void
     reinit(const ContactNodes &nodes);
 
-    dealii::SymmetricTensor<2, 3>
+    const dealii::SymmetricTensor<2, 3> &
     operator[](const unsigned int number) const
     {
-      return number < n_owned ? of_owned(number) : ghosts[number - n_owned];
+      return W[number];
     }
 
-    /// d . A_ii d of a pair along a unit direction d, for m* = m times @p mass_factor;
-    /// length/force.
+    /// 1/m of a node that can move at all, else zero.
     double
-    along(const ContactPair &pair,
-          const dealii::Tensor<1, 3> &direction,
-          const double mass_factor) const;
+    inverse_mass(const unsigned int number) const
+    {
+      // W = P/m with a projector P: |W|^2 = tr P/m^2, tr W = tr P/m.
+      const double trace_of_W = trace(W[number]);
+      return trace_of_W > 0. ? (W[number] * W[number]) / trace_of_W : 0.;
+    }
+
+    /// d . A_ii d of a pair along a unit direction d, for m* = m times @p mass_factor; length/force.
+    double
+    along(const ContactPair &pair, const dealii::Tensor<1, 3> &direction, const double mass_factor) const;
 
   private:
-    dealii::SymmetricTensor<2, 3>
-    of_owned(const unsigned int node) const
-    {
-      return conditions.projector(node) / discretization.mass[node];
-    }
-
-    const Discretization &discretization;
-    const EssentialConditions &conditions;
-    unsigned int n_owned;
-    std::vector<dealii::SymmetricTensor<2, 3>> ghosts;
+    const Discretization &                     discretization;
+    const EssentialConditions &                conditions;
+    std::vector<dealii::SymmetricTensor<2, 3>> W; ///< by contact number
   };
 } // namespace akmon

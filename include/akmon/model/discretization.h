@@ -51,6 +51,7 @@ namespace akmon
     dealii::types::global_cell_index id; ///< 6 * cell id + face number, the same for any rank count
     unsigned int body;
     bool owned;
+    double depth; ///< initial thickness of the cell behind the face, volume over area; length
   };
 
 
@@ -89,7 +90,7 @@ namespace akmon
       return materials[body_material[body]];
     }
 
-    /// Boundary ids of a named part "BODY:PART" (or "BODY", all of it); throws InputError naming
+    /// Boundary ids of a named part "BODY:PART" ("BODY": all of it; "all": all bodies); throws InputError naming
     /// section and key.
     std::set<dealii::types::boundary_id>
     boundary_ids(const std::string &section, const std::string &key, const std::string &part) const;
