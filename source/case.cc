@@ -54,7 +54,8 @@ namespace akmon
     class SilentErrors
     {
     public:
-      SilentErrors() : previous(std::cerr.rdbuf(swallowed.rdbuf()))
+      SilentErrors()
+        : previous(std::cerr.rdbuf(swallowed.rdbuf()))
       {
       }
 
@@ -75,15 +76,16 @@ namespace akmon
     declare_names(ParameterHandler &prm)
     {
       for (const auto &section : list_sections())
-      {
-        prm.enter_subsection(section.name);
-        prm.declare_entry("Names",
-                          "",
-                          Patterns::Anything(),
-                          section.documentation + ", separated by commas; each has a subsection of "
-                                                  "its name");
-        prm.leave_subsection();
-      }
+        {
+          prm.enter_subsection(section.name);
+          prm.declare_entry("Names",
+                            "",
+                            Patterns::Anything(),
+                            section.documentation +
+                              ", separated by commas; each has a subsection of "
+                              "its name");
+          prm.leave_subsection();
+        }
     }
 
 
@@ -98,13 +100,13 @@ namespace akmon
       declare_names(prm);
       for (const auto &section : list_sections())
         for (const auto &name : names.at(section.name))
-        {
-          prm.enter_subsection(section.name);
-          prm.enter_subsection(name);
-          section.declare_item(prm);
-          prm.leave_subsection();
-          prm.leave_subsection();
-        }
+          {
+            prm.enter_subsection(section.name);
+            prm.enter_subsection(name);
+            section.declare_item(prm);
+            prm.leave_subsection();
+            prm.leave_subsection();
+          }
       prm.enter_subsection("Time");
       StepControl::declare(prm);
       prm.leave_subsection();
@@ -148,10 +150,10 @@ namespace akmon
         else if (std::regex_match(line, end) && !open.empty())
           open.pop_back();
         else if (std::regex_match(line, match, set))
-        {
-          key   = match[1];
-          value = match[2];
-        }
+          {
+            key   = match[1];
+            value = match[2];
+          }
       }
     };
 
@@ -180,16 +182,16 @@ namespace akmon
       PrmReader reader;
       std::vector<std::string> names;
       for (std::string line; std::getline(text, line);)
-      {
-        const std::size_t depth_before = reader.open.size();
-        reader.take(line);
-        const auto &open = reader.open;
-        if (!reader.key.empty() && !want_subsections && open == section)
-          names.push_back(reader.key);
-        else if (open.size() > depth_before && want_subsections &&
-                 std::vector<std::string>(open.begin(), open.end() - 1) == section)
-          names.push_back(open.back());
-      }
+        {
+          const std::size_t depth_before = reader.open.size();
+          reader.take(line);
+          const auto &open = reader.open;
+          if (!reader.key.empty() && !want_subsections && open == section)
+            names.push_back(reader.key);
+          else if (open.size() > depth_before && want_subsections &&
+                   std::vector<std::string>(open.begin(), open.end() - 1) == section)
+            names.push_back(open.back());
+        }
       return names.empty() ? "none" : join(names, ", ");
     }
 
@@ -200,14 +202,14 @@ namespace akmon
       // The first part that is unknown.
       std::vector<std::string> known;
       while (known.size() + 1 < section.size())
-      {
-        known.push_back(section[known.size()]);
-        if (!prm.subsection_path_exists(known))
         {
-          known.pop_back();
-          break;
+          known.push_back(section[known.size()]);
+          if (!prm.subsection_path_exists(known))
+            {
+              known.pop_back();
+              break;
+            }
         }
-      }
       const bool is_list = known.size() == 1 &&
                            std::any_of(list_sections().begin(),
                                        list_sections().end(),
@@ -278,13 +280,13 @@ namespace akmon
       if (in.peek() == std::ifstream::traits_type::eof())
         throw InputError("the file is empty");
       try
-      {
-        prm.parse_input(in, file, "", skip_undefined);
-      }
+        {
+          prm.parse_input(in, file, "", skip_undefined);
+        }
       catch (const ExceptionBase &exception)
-      {
-        throw InputError(one_line(exception, prm, file));
-      }
+        {
+          throw InputError(one_line(exception, prm, file));
+        }
     }
 
 
@@ -293,15 +295,15 @@ namespace akmon
     {
       std::vector<Override> overrides;
       for (const auto &text : texts)
-      {
-        const auto equals = text.find('=');
-        if (equals == std::string::npos || equals == 0)
-          throw InputError("--set " + text + ": allowed is \"Section/Sub/Key=value\"");
-        Override entry{split_list(text.substr(0, equals), '/'), "", text.substr(equals + 1)};
-        entry.key = entry.path.back();
-        entry.path.pop_back();
-        overrides.push_back(entry);
-      }
+        {
+          const auto equals = text.find('=');
+          if (equals == std::string::npos || equals == 0)
+            throw InputError("--set " + text + ": allowed is \"Section/Sub/Key=value\"");
+          Override entry{split_list(text.substr(0, equals), '/'), "", text.substr(equals + 1)};
+          entry.key = entry.path.back();
+          entry.path.pop_back();
+          overrides.push_back(entry);
+        }
       return overrides;
     }
 
@@ -318,22 +320,22 @@ namespace akmon
         prm.enter_subsection(name);
       std::string problem;
       try
-      {
-        prm.set(entry.key, entry.value);
-      }
+        {
+          prm.set(entry.key, entry.value);
+        }
       catch (const ParameterHandler::ExcValueDoesNotMatchPattern &exception)
-      {
-        std::ostringstream text;
-        exception.print_info(text);
-        std::smatch match;
-        const std::string info = text.str();
-        std::regex_search(info, match, std::regex("given pattern <(.*)>\\."));
-        problem = allowed_values(match[1]);
-      }
+        {
+          std::ostringstream text;
+          exception.print_info(text);
+          std::smatch match;
+          const std::string info = text.str();
+          std::regex_search(info, match, std::regex("given pattern <(.*)>\\."));
+          problem = allowed_values(match[1]);
+        }
       catch (const ExceptionBase &)
-      {
-        problem = no_such_key(prm, entry.path);
-      }
+        {
+          problem = no_such_key(prm, entry.path);
+        }
       for (unsigned int i = 0; i < entry.path.size(); ++i)
         prm.leave_subsection();
       if (!problem.empty())
@@ -353,19 +355,19 @@ namespace akmon
           apply_override(prm, entry);
       Names names;
       for (const auto &section : list_sections())
-      {
-        prm.enter_subsection(section.name);
-        auto &list = names[section.name] = split_list(prm.get("Names"));
-        for (auto name = list.begin(); name != list.end(); ++name)
-          if (std::find(list.begin(), name, *name) != name)
-            throw InputError(section.name,
-                             "Names",
-                             prm.get("Names"),
-                             "'" + *name + "' stands twice");
-          else if (name->find_first_of(":/") != std::string::npos)
-            throw InputError(section.name, "Names", prm.get("Names"), "names have no ':' or '/'");
-        prm.leave_subsection();
-      }
+        {
+          prm.enter_subsection(section.name);
+          auto &list = names[section.name] = split_list(prm.get("Names"));
+          for (auto name = list.begin(); name != list.end(); ++name)
+            if (std::find(list.begin(), name, *name) != name)
+              throw InputError(section.name,
+                               "Names",
+                               prm.get("Names"),
+                               "'" + *name + "' stands twice");
+            else if (name->find_first_of(":/") != std::string::npos)
+              throw InputError(section.name, "Names", prm.get("Names"), "names have no ':' or '/'");
+          prm.leave_subsection();
+        }
       return names;
     }
 
@@ -377,13 +379,13 @@ namespace akmon
       std::vector<Item> items;
       prm.enter_subsection(section);
       for (const auto &name : names.at(section))
-      {
-        prm.enter_subsection(name);
-        items.emplace_back();
-        items.back().name = name;
-        items.back().parse(prm, section + "/" + name);
-        prm.leave_subsection();
-      }
+        {
+          prm.enter_subsection(name);
+          items.emplace_back();
+          items.back().name = name;
+          items.back().parse(prm, section + "/" + name);
+          prm.leave_subsection();
+        }
       prm.leave_subsection();
       return items;
     }

@@ -30,25 +30,26 @@ namespace
   {
     Arguments arguments;
     for (int i = 1; i < argc; ++i)
-    {
-      const std::string argument = argv[i];
-      if (argument == "--set" && i + 1 < argc)
-        arguments.overrides.emplace_back(argv[++i]);
-      else if (argument == "--set")
-        throw akmon::InputError("--set needs \"Section/Sub/Key=value\" after it");
-      else if (argument == "--validate")
-        arguments.validate = true;
-      else if (argument == "--print-parameters")
-        arguments.print_parameters = true;
-      else if (argument == "--help")
-        arguments.help = true;
-      else if (argument == "--version")
-        arguments.version = true;
-      else if (argument[0] != '-' && arguments.file.empty())
-        arguments.file = argument;
-      else
-        throw akmon::InputError("argument '" + argument + "' is not understood; see akmon --help");
-    }
+      {
+        const std::string argument = argv[i];
+        if (argument == "--set" && i + 1 < argc)
+          arguments.overrides.emplace_back(argv[++i]);
+        else if (argument == "--set")
+          throw akmon::InputError("--set needs \"Section/Sub/Key=value\" after it");
+        else if (argument == "--validate")
+          arguments.validate = true;
+        else if (argument == "--print-parameters")
+          arguments.print_parameters = true;
+        else if (argument == "--help")
+          arguments.help = true;
+        else if (argument == "--version")
+          arguments.version = true;
+        else if (argument[0] != '-' && arguments.file.empty())
+          arguments.file = argument;
+        else
+          throw akmon::InputError("argument '" + argument +
+                                  "' is not understood; see akmon --help");
+      }
     if (arguments.file.empty() && !arguments.print_parameters && !arguments.help &&
         !arguments.version)
       throw akmon::InputError("a parameter file is missing; see akmon --help");
@@ -68,18 +69,18 @@ namespace
     if (arguments.file.empty())
       return;
     try
-    {
-      akmon::Simulation simulation(akmon::Case::read(arguments.file, arguments.overrides),
-                                   MPI_COMM_WORLD);
-      if (!arguments.validate)
-        simulation.run();
-      else if (root)
-        std::cout << arguments.file << " is valid\n";
-    }
+      {
+        akmon::Simulation simulation(akmon::Case::read(arguments.file, arguments.overrides),
+                                     MPI_COMM_WORLD);
+        if (!arguments.validate)
+          simulation.run();
+        else if (root)
+          std::cout << arguments.file << " is valid\n";
+      }
     catch (const akmon::InputError &error)
-    {
-      throw akmon::InputError(arguments.file + ": " + error.what());
-    }
+      {
+        throw akmon::InputError(arguments.file + ": " + error.what());
+      }
   }
 
 
@@ -92,11 +93,11 @@ namespace
     int all = 0;
     MPI_Ibarrier(communicator, &request);
     for (unsigned int tenth_of_second = 0; tenth_of_second < 100 && !all; ++tenth_of_second)
-    {
-      MPI_Test(&request, &all, MPI_STATUS_IGNORE);
-      if (!all)
-        std::this_thread::sleep_for(std::chrono::milliseconds(tenth_of_second == 0 ? 1 : 100));
-    }
+      {
+        MPI_Test(&request, &all, MPI_STATUS_IGNORE);
+        if (!all)
+          std::this_thread::sleep_for(std::chrono::milliseconds(tenth_of_second == 0 ? 1 : 100));
+      }
     return all;
   }
 
@@ -119,18 +120,18 @@ main(int argc, char **argv)
   MPI_Comm_dup(MPI_COMM_WORLD, &for_errors);
   int status = 0;
   try
-  {
-    run(read_arguments(argc, argv), root);
-  }
+    {
+      run(read_arguments(argc, argv), root);
+    }
   catch (const std::exception &error)
-  {
-    status         = 1;
-    const bool all = all_ranks_fail(for_errors);
-    if (root || !all)
-      report(error.what());
-    if (!all)
-      MPI_Abort(MPI_COMM_WORLD, status);
-  }
+    {
+      status         = 1;
+      const bool all = all_ranks_fail(for_errors);
+      if (root || !all)
+        report(error.what());
+      if (!all)
+        MPI_Abort(MPI_COMM_WORLD, status);
+    }
   MPI_Comm_free(&for_errors);
   return status;
 }

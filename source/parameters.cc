@@ -18,20 +18,20 @@ namespace akmon
                            match,
                            std::regex("\\[(Double|Integer)(?: range)?(?: (\\S+)\\.\\.\\.(\\S+))?"
                                       "(?: \\(inclusive\\))?\\]")))
-      {
-        std::string text  = match[1] == "Double" ? "numbers" : "integers";
-        const auto finite = [](const std::string &bound) {
-          return !bound.empty() && bound.find("MAX_DOUBLE") == std::string::npos &&
-                 bound.find("2147483647") == std::string::npos &&
-                 bound.find("2147483648") == std::string::npos;
-        };
-        const std::string lower = match[2], upper = match[3];
-        if (finite(lower) && finite(upper))
-          return text + " from " + lower + " to " + upper;
-        if (finite(lower))
-          return text + " not below " + lower;
-        return finite(upper) ? text + " not above " + upper : text;
-      }
+        {
+          std::string text  = match[1] == "Double" ? "numbers" : "integers";
+          const auto finite = [](const std::string &bound) {
+            return !bound.empty() && bound.find("MAX_DOUBLE") == std::string::npos &&
+                   bound.find("2147483647") == std::string::npos &&
+                   bound.find("2147483648") == std::string::npos;
+          };
+          const std::string lower = match[2], upper = match[3];
+          if (finite(lower) && finite(upper))
+            return text + " from " + lower + " to " + upper;
+          if (finite(lower))
+            return text + " not below " + lower;
+          return finite(upper) ? text + " not above " + upper : text;
+        }
       if (std::regex_match(pattern, match, std::regex("\\[(Multiple)?Selection (.*?) *\\]")))
         return (match[1].matched ? "any of " : "") +
                std::regex_replace(match[2].str(), std::regex("\\|"), ", ");
@@ -54,7 +54,8 @@ namespace akmon
   }
 
 
-  InputError::InputError(const std::string &message) : std::runtime_error(message)
+  InputError::InputError(const std::string &message)
+    : std::runtime_error(message)
   {
   }
 

@@ -12,32 +12,42 @@ namespace akmon
   using namespace dealii;
 
   Simulation::Stages::Stages(StageTimer &timer)
-    : predict(timer.add("integrator.predict")), search(timer.add("contact.search")),
-      forces(timer.add("forces.update")), time_step(timer.add("time_step.choose")),
-      free_increment(timer.add("integrator.free_increment")),
-      normal(timer.add("contact.resolve_normal")), friction(timer.add("contact.resolve_friction")),
-      correct(timer.add("integrator.correct")), observe(timer.add("monitor.observe"))
+    : predict(timer.add("integrator.predict"))
+    , search(timer.add("contact.search"))
+    , forces(timer.add("forces.update"))
+    , time_step(timer.add("time_step.choose"))
+    , free_increment(timer.add("integrator.free_increment"))
+    , normal(timer.add("contact.resolve_normal"))
+    , friction(timer.add("contact.resolve_friction"))
+    , correct(timer.add("integrator.correct"))
+    , observe(timer.add("monitor.observe"))
   {
   }
 
 
   Simulation::Simulation(const Case &parameters, MPI_Comm communicator, const bool quiet)
-    : parameters(parameters), communicator(communicator), screen(communicator, quiet),
-      discretization(parameters.bodies, parameters.materials, communicator), state(discretization),
-      conditions(discretization, this->parameters.prescribed_motions),
-      external_forces(discretization, this->parameters.surface_loads, this->parameters.body_force),
-      internal_forces(discretization),
-      contact(discretization,
+    : parameters(parameters)
+    , communicator(communicator)
+    , screen(communicator, quiet)
+    , discretization(parameters.bodies, parameters.materials, communicator)
+    , state(discretization)
+    , conditions(discretization, this->parameters.prescribed_motions)
+    , external_forces(discretization, this->parameters.surface_loads, this->parameters.body_force)
+    , internal_forces(discretization)
+    , contact(discretization,
               this->parameters.contact_solver,
-              this->parameters.contacts, this->parameters.planes, conditions),
-      integrator(discretization, state, parameters.body_force.damping),
-      n_cells(discretization.triangulation.n_global_active_cells()), stages(timer)
+              this->parameters.contacts,
+              this->parameters.planes,
+              conditions)
+    , integrator(discretization, state, parameters.body_force.damping)
+    , n_cells(discretization.triangulation.n_global_active_cells())
+    , stages(timer)
   {
-    // The probes are the only part of the output that the input can make fail.
-    Probes(parameters.probes, discretization, internal_forces, integrator);
+    refuse_body_overlap(discretization);
     contact.search(state);
     contact.refuse_initial_overlap(state);
-    refuse_body_overlap(discretization);
+    // The probes are the only part of the output that the input can make fail.
+    Probes(parameters.probes, discretization, internal_forces, integrator);
   }
 
 
@@ -58,17 +68,17 @@ namespace akmon
                                                          contact});
     wall_start = std::chrono::steady_clock::now();
     try
-    {
-      start();
-      while (!parameters.time.finished(state.time))
-        step();
-    }
+      {
+        start();
+        while (!parameters.time.finished(state.time))
+          step();
+      }
     catch (const RunError &)
-    {
-      monitor->write_fields();
-      stop();
-      throw;
-    }
+      {
+        monitor->write_fields();
+        stop();
+        throw;
+      }
     stop();
   }
 
@@ -78,15 +88,15 @@ namespace akmon
   {
     velocity_0 = discretization.make_vector();
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
-    {
-      const unsigned int body_index = discretization.body_of_node[node];
-      const Body &body              = discretization.get_bodies()[body_index];
-      const auto arm                = at_node(discretization.reference, node) -
-                       discretization.centre_of(body_index);
-      const auto v = body.velocity + cross_product_3d(body.spin, arm);
-      for (unsigned int d = 0; d < 3; ++d)
-        velocity_0.local_element(3 * node + d) = v[d];
-    }
+      {
+        const unsigned int body_index = discretization.body_of_node[node];
+        const Body &body              = discretization.get_bodies()[body_index];
+        const auto arm                = at_node(discretization.reference, node) -
+                         discretization.centre_of(body_index);
+        const auto v = body.velocity + cross_product_3d(body.spin, arm);
+        for (unsigned int d = 0; d < 3; ++d)
+          velocity_0.local_element(3 * node + d) = v[d];
+      }
     conditions.adjust_initial_velocity(velocity_0);
   }
 
@@ -179,15 +189,13 @@ namespace akmon
   Simulation::check_cells()
   {
     const auto &fault   = internal_forces.fault();
-    std::string message = !fault.occurred()
-                            ? ""
-                            : "step " + std::to_string(state.step) + ", time " +
-                                shortest_text(state.time) + ": cell " + std::to_string(fault.cell) +
-                                " of body '" + fault.body +
-                                "' is inverted or not a number, near (" +
-                                shortest_text(fault.place[0]) + ", " +
-                                shortest_text(fault.place[1]) + ", " +
-                                shortest_text(fault.place[2]) + ")";
+    std::string message = !fault.occurred() ?
+                            "" :
+                            "step " + std::to_string(state.step) + ", time " +
+                              shortest_text(state.time) + ": cell " + std::to_string(fault.cell) +
+                              " of body '" + fault.body + "' is inverted or not a number, near (" +
+                              shortest_text(fault.place[0]) + ", " + shortest_text(fault.place[1]) +
+                              ", " + shortest_text(fault.place[2]) + ")";
     if (Utilities::MPI::max(int(fault.occurred()), communicator) == 0)
       return;
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, message))
@@ -206,13 +214,13 @@ namespace akmon
     std::string limit;
     if (2. / std::sqrt(internal_forces.largest_frequency_squared()) == critical &&
         !discretization.cells.empty())
-    {
-      const auto &cell = discretization.cells[internal_forces.limiting_cell()];
-      const auto place = cell.cell->center();
-      limit = "cell " + std::to_string(cell.id) + " of '" + parameters.bodies[cell.body].name +
-              "' at (" + shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
-              shortest_text(place[2]) + ")";
-    }
+      {
+        const auto &cell = discretization.cells[internal_forces.limiting_cell()];
+        const auto place = cell.cell->center();
+        limit = "cell " + std::to_string(cell.id) + " of '" + parameters.bodies[cell.body].name +
+                "' at (" + shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
+                shortest_text(place[2]) + ")";
+      }
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, limit))
       if (limit.empty())
         limit = of_rank;

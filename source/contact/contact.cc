@@ -36,15 +36,15 @@ namespace akmon
 
 
     std::vector<SurfaceSearch>
-    make_searches(const Discretization &             discretization,
-                  const ContactSolver &              solver,
+    make_searches(const Discretization &discretization,
+                  const ContactSolver &solver,
                   const std::vector<SurfaceContact> &contacts)
     {
       std::vector<SurfaceSearch> searches;
       for (unsigned int i = 0; i < contacts.size(); ++i)
         {
-          const auto &contact   = contacts[i];
-          const bool  symmetric = solver.type == ContactSolver::Type::coupled && contact.symmetric;
+          const auto &contact  = contacts[i];
+          const bool symmetric = solver.type == ContactSolver::Type::coupled && contact.symmetric;
           searches.emplace_back(discretization, contact, i, false);
           if (symmetric && contact.slaves != contact.masters)
             searches.emplace_back(discretization, contact, i, true);
@@ -69,12 +69,12 @@ namespace akmon
 
 
     std::vector<unsigned int>
-    owned_nodes(const Discretization &                        discretization,
-                const std::vector<SurfaceSearch> &            searches,
+    owned_nodes(const Discretization &discretization,
+                const std::vector<SurfaceSearch> &searches,
                 const std::vector<std::vector<BoundaryFace>> &plane_faces)
     {
       std::vector<unsigned int> nodes;
-      const auto                add = [&](const std::vector<BoundaryFace> &faces) {
+      const auto add = [&](const std::vector<BoundaryFace> &faces) {
         for (const auto &face : faces)
           for (const unsigned int node : face.nodes)
             if (node < discretization.n_owned_nodes)
@@ -91,11 +91,11 @@ namespace akmon
   } // namespace
 
 
-  Contact::Contact(const Discretization &             discretization,
-                   const ContactSolver &              solver,
+  Contact::Contact(const Discretization &discretization,
+                   const ContactSolver &solver,
                    const std::vector<SurfaceContact> &contacts,
-                   const std::vector<RigidPlane> &    planes,
-                   const EssentialConditions &        conditions)
+                   const std::vector<RigidPlane> &planes,
+                   const EssentialConditions &conditions)
     : discretization(discretization)
     , solver(solver)
     , contacts(contacts)
@@ -111,9 +111,9 @@ namespace akmon
       plane_slaves.push_back(node_sizes(discretization, faces));
     for (unsigned int i = 0; i < contacts.size() + planes.size(); ++i)
       {
-        const bool        is_contact = i < contacts.size();
-        const ContactLaw &law =
-          is_contact ? static_cast<const ContactLaw &>(contacts[i]) : planes[i - contacts.size()];
+        const bool is_contact = i < contacts.size();
+        const ContactLaw &law = is_contact ? static_cast<const ContactLaw &>(contacts[i]) :
+                                             planes[i - contacts.size()];
         if (solver.type == ContactSolver::Type::coupled && law.stick == ContactLaw::Stick::central)
           throw InputError((is_contact ? "Contact/" : "Obstacles/") + law.name,
                            "Stick",
@@ -219,8 +219,9 @@ namespace akmon
   }
 
 
-  // An exact method would put a node that was found inside back within one step, at depth/dt, far above
-  // any physical speed. So a penetration is taken back at the release speed only; it cannot grow.
+  // An exact method would put a node that was found inside back within one step, at depth/dt, far
+  // above any physical speed. So a penetration is taken back at the release speed only; it cannot
+  // grow.
   void
   Contact::set_target_gaps(const NodalState &state)
   {
@@ -282,9 +283,9 @@ namespace akmon
 
 
   void
-  Contact::decoupled_friction(ContactPair &     pair,
+  Contact::decoupled_friction(ContactPair &pair,
                               const NodalState &state,
-                              const double      effective_mass_factor)
+                              const double effective_mass_factor)
   {
     const double mu = friction_coefficient(pair, state);
     if (mu == 0.)
@@ -330,8 +331,8 @@ namespace akmon
       }
     for (const auto &force : forces)
       {
-        const auto increment =
-          (force.normal + force.tangential) / (discretization.mass[force.node] * effective_mass_factor);
+        const auto increment = (force.normal + force.tangential) /
+                               (discretization.mass[force.node] * effective_mass_factor);
         for (unsigned int d = 0; d < 3; ++d)
           state.dx_next.local_element(3 * force.node + d) += increment[d];
       }
@@ -343,11 +344,11 @@ namespace akmon
   {
     Work sum;
     for (const auto &force : forces)
-    {
-      const auto step = at_node(increment, force.node);
-      sum.normal += force.normal * step;
-      sum.tangential += force.tangential * step;
-    }
+      {
+        const auto step = at_node(increment, force.node);
+        sum.normal += force.normal * step;
+        sum.tangential += force.tangential * step;
+      }
     return sum;
   }
 
@@ -359,18 +360,18 @@ namespace akmon
     report.iterations = coupled.iterations();
     report.forces.resize(contacts.size() + planes.size());
     for (const auto &pair : pairs)
-    {
-      report.max_penetration = std::max(report.max_penetration, -pair.gap);
-      if (-pair.gap / pair.size > report.max_penetration_relative)
       {
-        report.max_penetration_relative = -pair.gap / pair.size;
-        report.place                    = Point<3>(at_node(state.x, pair.slave));
+        report.max_penetration = std::max(report.max_penetration, -pair.gap);
+        if (-pair.gap / pair.size > report.max_penetration_relative)
+          {
+            report.max_penetration_relative = -pair.gap / pair.size;
+            report.place                    = Point<3>(at_node(state.x, pair.slave));
+          }
+        report.active_pairs += pair.normal_force > 0.;
+        report.sticking_pairs += pair.normal_force > 0. && pair.sticks;
+        const auto force = pair.normal_force * pair.normal + pair.tangential_force;
+        report.forces[pair.interface] += pair.reversed ? -force : force;
       }
-      report.active_pairs += pair.normal_force > 0.;
-      report.sticking_pairs += pair.normal_force > 0. && pair.sticks;
-      const auto force = pair.normal_force * pair.normal + pair.tangential_force;
-      report.forces[pair.interface] += pair.reversed ? -force : force;
-    }
     return report;
   }
 
@@ -416,16 +417,16 @@ namespace akmon
         deepest = &pair;
     std::string message;
     if (deepest)
-    {
-      const auto place = at_node(state.x, deepest->slave);
-      message          = "[" +
-                std::string(deepest->interface < contacts.size() ? "Contact/" : "Obstacles/") +
-                law_of(*deepest).name + "] body '" +
-                discretization.get_bodies()[discretization.body_of_node[deepest->slave]].name +
-                "' starts inside its partner, " + shortest_text(-deepest->gap) + " deep at (" +
-                shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
-                shortest_text(place[2]) + "); move the bodies apart";
-    }
+      {
+        const auto place = at_node(state.x, deepest->slave);
+        message          = "[" +
+                  std::string(deepest->interface < contacts.size() ? "Contact/" : "Obstacles/") +
+                  law_of(*deepest).name + "] body '" +
+                  discretization.get_bodies()[discretization.body_of_node[deepest->slave]].name +
+                  "' starts inside its partner, " + shortest_text(-deepest->gap) + " deep at (" +
+                  shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
+                  shortest_text(place[2]) + "); move the bodies apart";
+      }
     for (const auto &of_rank : Utilities::MPI::all_gather(discretization.communicator(), message))
       if (!of_rank.empty())
         throw InputError(of_rank);

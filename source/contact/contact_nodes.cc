@@ -9,13 +9,13 @@ namespace akmon
 {
   using namespace dealii;
 
-  ContactNodes::ContactNodes(const Discretization &           discretization,
+  ContactNodes::ContactNodes(const Discretization &discretization,
                              const std::vector<unsigned int> &surface_nodes)
     : communicator(discretization.communicator())
     , parallel(Utilities::MPI::n_mpi_processes(communicator) > 1)
     , owned(surface_nodes)
   {
-    Id       n = owned.size(), first = 0;
+    Id n = owned.size(), first = 0;
     const Id total = Utilities::MPI::sum(n, communicator);
     MPI_Exscan(&n, &first, 1, Utilities::MPI::mpi_type_id_for_type<Id>, MPI_SUM, communicator);
     owned_indices.set_size(3 * total);
@@ -45,7 +45,9 @@ namespace akmon
     others.erase(std::unique(others.begin(), others.end()), others.end());
     IndexSet ghosts(owned_indices.size());
     ghosts.add_indices(others.begin(), others.end());
-    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned_indices, ghosts, communicator);
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned_indices,
+                                                                ghosts,
+                                                                communicator);
   }
 
 
@@ -68,7 +70,7 @@ namespace akmon
     const std::size_t n = 3 * owned.size();
     buffer.resize(partitioner->n_import_indices());
     std::vector<MPI_Request> requests;
-    const ArrayView<double>  ghosts(field.values.data() + n, field.values.size() - n);
+    const ArrayView<double> ghosts(field.values.data() + n, field.values.size() - n);
     partitioner->export_to_ghosted_array_start<double, MemorySpace::Host>(
       0,
       ArrayView<const double>(field.values.data(), n),
@@ -87,10 +89,13 @@ namespace akmon
     const std::size_t n = 3 * owned.size();
     buffer.resize(partitioner->n_import_indices());
     std::vector<MPI_Request> requests;
-    const ArrayView<double>  ghosts(field.values.data() + n, field.values.size() - n);
-    const ArrayView<double>  imports(buffer.data(), buffer.size());
-    partitioner->import_from_ghosted_array_start<double, MemorySpace::Host>(
-      VectorOperation::add, 1, ghosts, imports, requests);
+    const ArrayView<double> ghosts(field.values.data() + n, field.values.size() - n);
+    const ArrayView<double> imports(buffer.data(), buffer.size());
+    partitioner->import_from_ghosted_array_start<double, MemorySpace::Host>(VectorOperation::add,
+                                                                            1,
+                                                                            ghosts,
+                                                                            imports,
+                                                                            requests);
     partitioner->import_from_ghosted_array_finish<double, MemorySpace::Host>(
       VectorOperation::add,
       ArrayView<const double>(buffer.data(), buffer.size()),
@@ -110,8 +115,8 @@ namespace akmon
 
         // The partners are those of the ghost exchange, the other way round.
         std::vector<std::vector<Contribution>> outgoing;
-        std::vector<MPI_Request>               requests(partitioner->ghost_targets().size());
-        unsigned int                           first = n_owned();
+        std::vector<MPI_Request> requests(partitioner->ghost_targets().size());
+        unsigned int first = n_owned();
         for (const auto &[rank, n_entries] : partitioner->ghost_targets())
           {
             const Id lowest = id(first), highest = id(first + n_entries / 3 - 1);
@@ -138,7 +143,7 @@ namespace akmon
         for (const auto &source : partitioner->import_targets())
           {
             MPI_Status status;
-            int        n_bytes = 0;
+            int n_bytes = 0;
             MPI_Probe(source.first, tag, communicator, &status);
             MPI_Get_count(&status, MPI_BYTE, &n_bytes);
             const std::size_t n_before = contributions.size();

@@ -13,25 +13,28 @@ namespace akmon
   void
   ContactSolver::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Type",
-                      "coupled",
-                      Selection("coupled|decoupled"),
-                      "Contact forces of all pairs at once (exact for any meshes), or every pair alone "
-                      "as in the paper (exact for node pairs and rigid planes only)");
-    prm.declare_entry("Tolerance",
-                      "1e-10",
-                      Double(0.),
-                      "Largest remaining gap violation of the coupled solution, relative to the cell "
-                      "size (dimensionless)");
+    prm.declare_entry(
+      "Type",
+      "coupled",
+      Selection("coupled|decoupled"),
+      "Contact forces of all pairs at once (exact for any meshes), or every pair alone "
+      "as in the paper (exact for node pairs and rigid planes only)");
+    prm.declare_entry(
+      "Tolerance",
+      "1e-10",
+      Double(0.),
+      "Largest remaining gap violation of the coupled solution, relative to the cell "
+      "size (dimensionless)");
     prm.declare_entry("Maximum iterations",
                       "1000",
                       dealii::Patterns::Integer(1),
                       "Applications of the Delassus operator that one coupled solution may take");
-    prm.declare_entry("Release speed",
-                      "1e-4",
-                      Double(0.),
-                      "Speed at which a penetration found by the search is taken back, relative to the "
-                      "dilatational wave speed (dimensionless); it never grows");
+    prm.declare_entry(
+      "Release speed",
+      "1e-4",
+      Double(0.),
+      "Speed at which a penetration found by the search is taken back, relative to the "
+      "dilatational wave speed (dimensionless); it never grows");
   }
 
 
@@ -57,24 +60,26 @@ namespace akmon
                       Anything(),
                       "Coefficient mu_k at high slip speed, or 'same' as the static one "
                       "(dimensionless)");
-    prm.declare_entry("Friction decay",
-                      "0",
-                      Double(0.),
-                      "Decay d from static to kinetic friction, mu = mu_k + (mu_s - mu_k) exp(-d |v|) "
-                      "(time/length)");
-    prm.declare_entry("Stick",
-                      "forward",
-                      Selection("forward|central"),
-                      "What sticking makes zero: the forward increment (a stuck node rests), or the "
-                      "central velocity as printed in the paper (it jitters; decoupled solver only)");
+    prm.declare_entry(
+      "Friction decay",
+      "0",
+      Double(0.),
+      "Decay d from static to kinetic friction, mu = mu_k + (mu_s - mu_k) exp(-d |v|) "
+      "(time/length)");
+    prm.declare_entry(
+      "Stick",
+      "forward",
+      Selection("forward|central"),
+      "What sticking makes zero: the forward increment (a stuck node rests), or the "
+      "central velocity as printed in the paper (it jitters; decoupled solver only)");
   }
 
 
   void
   ContactLaw::parse(dealii::ParameterHandler &prm, const std::string &section)
   {
-    friction.static_coefficient = friction.kinetic_coefficient =
-      prm.get_double("Friction coefficient");
+    friction.static_coefficient = friction.kinetic_coefficient = prm.get_double(
+      "Friction coefficient");
     friction.decay            = prm.get_double("Friction decay");
     stick                     = prm.get("Stick") == "central" ? Stick::central : Stick::forward;
     const std::string kinetic = prm.get("Kinetic friction coefficient");
@@ -93,11 +98,12 @@ namespace akmon
   void
   SurfaceContact::declare(dealii::ParameterHandler &prm)
   {
-    prm.declare_entry("Slave",
-                      "",
-                      List(Anything()),
-                      "Boundary parts BODY:PART whose nodes are kept out of the master; 'all' is every "
-                      "surface of every body");
+    prm.declare_entry(
+      "Slave",
+      "",
+      List(Anything()),
+      "Boundary parts BODY:PART whose nodes are kept out of the master; 'all' is every "
+      "surface of every body");
     prm.declare_entry("Master", "", List(Anything()), "Boundary parts BODY:PART made of segments");
     prm.declare_entry(
       "Gap model",
@@ -105,11 +111,12 @@ namespace akmon
       Selection("point to segment|point to point"),
       "Partner of a slave node: the closest point of the master faces, or the closest "
       "master node");
-    prm.declare_entry("Pass",
-                      "symmetric",
-                      Selection("symmetric|single"),
-                      "Whether both sides are slave and master (coupled solver only), or slaves are "
-                      "on one side only");
+    prm
+      .declare_entry("Pass",
+                     "symmetric",
+                     Selection("symmetric|single"),
+                     "Whether both sides are slave and master (coupled solver only), or slaves are "
+                     "on one side only");
     prm.declare_entry(
       "Rim tolerance",
       "0.01",
@@ -130,8 +137,8 @@ namespace akmon
       throw InputError(section, "Slave", "(none)", "allowed are boundary parts BODY:PART");
     if (masters.empty())
       throw InputError(section, "Master", "(none)", "allowed are boundary parts BODY:PART");
-    gap_model     = prm.get("Gap model") == "point to point" ? GapModel::point_to_point
-                                                             : GapModel::point_to_segment;
+    gap_model     = prm.get("Gap model") == "point to point" ? GapModel::point_to_point :
+                                                               GapModel::point_to_segment;
     symmetric     = prm.get("Pass") == "symmetric";
     rim_tolerance = prm.get_double("Rim tolerance");
   }

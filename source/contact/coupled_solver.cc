@@ -10,18 +10,19 @@ namespace akmon
   using namespace dealii;
 
   CoupledSolver::CoupledSolver(const ContactSolver &parameters,
-                               const ContactNodes & nodes,
-                               const Mobility &     mobility)
+                               const ContactNodes &nodes,
+                               const Mobility &mobility)
     : parameters(parameters)
     , nodes(nodes)
     , delassus(nodes, mobility)
-  {}
+  {
+  }
 
 
-  // Pairs that the step could close: the contact forces move a node by no more than a few times what the
-  // fastest pair would do freely. All others only cost iterations.
+  // Pairs that the step could close: the contact forces move a node by no more than a few times
+  // what the fastest pair would do freely. All others only cost iterations.
   void
-  CoupledSolver::choose_participants(std::vector<ContactPair> & pairs,
+  CoupledSolver::choose_participants(std::vector<ContactPair> &pairs,
                                      const ContactNodes::Field &dx_free)
   {
     double fastest = 0.;
@@ -42,9 +43,9 @@ namespace akmon
 
 
   void
-  CoupledSolver::solve_normal(std::vector<ContactPair> & pairs,
+  CoupledSolver::solve_normal(std::vector<ContactPair> &pairs,
                               const ContactNodes::Field &dx_free,
-                              const double               effective_mass_factor)
+                              const double effective_mass_factor)
   {
     n_iterations      = 0;
     last_residual     = 0.;
@@ -56,24 +57,24 @@ namespace akmon
     norm = delassus.norm_bound();
     weights.resize(participants.size());
     for (std::size_t i = 0; i < participants.size(); ++i)
-      weights[i] =
-        delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * participants[i]->size) : 0.;
+      weights[i] = delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * participants[i]->size) :
+                                              0.;
     complementarity(dx_free);
   }
 
 
-  // 0 <= t_n _|_ A t_n + n . (G (dx_f + dx_tau) + g) >= 0. Returns the largest change of a gap that the
-  // new forces make, relative to the cell size.
+  // 0 <= t_n _|_ A t_n + n . (G (dx_f + dx_tau) + g) >= 0. Returns the largest change of a gap that
+  // the new forces make, relative to the cell size.
   double
   CoupledSolver::complementarity(const ContactNodes::Field &dx_free)
   {
-    const auto &        s = delassus.scale();
-    const std::size_t   n = participants.size();
+    const auto &s       = delassus.scale();
+    const std::size_t n = participants.size();
     std::vector<double> b(n), tau(n);
     if (tangential_forces)
       {
-        const auto &dx_tau =
-          delassus.increments([&](const std::size_t i) { return participants[i]->tangential_force; });
+        const auto &dx_tau = delassus.increments(
+          [&](const std::size_t i) { return participants[i]->tangential_force; });
         for (std::size_t i = 0; i < n; ++i)
           b[i] = s[i] * (participants[i]->normal * participants[i]->relative(dx_tau));
       }
@@ -87,13 +88,13 @@ namespace akmon
     ProjectedConjugateGradients<HalfLine> solver(nodes.get_communicator(),
                                                  parameters.tolerance,
                                                  parameters.limit);
-    const auto result = solver.solve(
-      [&](const std::vector<double> &t, std::vector<double> &y) { delassus.apply_normal(t, y); },
-      b,
-      HalfLine(),
-      weights,
-      norm,
-      tau);
+    const auto result = solver.solve([&](const std::vector<double> &t,
+                                         std::vector<double> &y) { delassus.apply_normal(t, y); },
+                                     b,
+                                     HalfLine(),
+                                     weights,
+                                     norm,
+                                     tau);
     n_iterations += result.n_applications;
     last_residual = std::max(last_residual, result.residual);
 
@@ -138,13 +139,12 @@ namespace akmon
   CoupledSolver::slip(const ContactNodes::Field &dx_free,
                       const std::vector<double> &friction_coefficients)
   {
-    const auto &              s = delassus.scale();
-    const std::size_t         n = participants.size();
-    Discs                     discs;
+    const auto &s       = delassus.scale();
+    const std::size_t n = participants.size();
+    Discs discs;
     std::vector<Tensor<1, 3>> b(n), tau(n);
-    const auto &              dx_n = delassus.increments([&](const std::size_t i) {
-      return participants[i]->normal_force * participants[i]->normal;
-    });
+    const auto &dx_n = delassus.increments(
+      [&](const std::size_t i) { return participants[i]->normal_force * participants[i]->normal; });
     for (std::size_t i = 0; i < n; ++i)
       {
         const auto &pair = *participants[i];
@@ -156,22 +156,22 @@ namespace akmon
     ProjectedConjugateGradients<Discs> solver(nodes.get_communicator(),
                                               parameters.tolerance,
                                               parameters.limit);
-    const auto result = solver.solve(
-      [&](const std::vector<Tensor<1, 3>> &t, std::vector<Tensor<1, 3>> &y) {
-        delassus.apply_tangential(t, y);
-      },
-      b,
-      discs,
-      weights,
-      norm,
-      tau);
+    const auto
+      result = solver.solve([&](const std::vector<Tensor<1, 3>> &t,
+                                std::vector<Tensor<1, 3>> &y) { delassus.apply_tangential(t, y); },
+                            b,
+                            discs,
+                            weights,
+                            norm,
+                            tau);
     n_iterations += result.n_applications;
     last_residual     = std::max(last_residual, result.residual);
     tangential_forces = true;
     for (std::size_t i = 0; i < n; ++i)
       {
         participants[i]->tangential_force = s[i] * tau[i];
-        participants[i]->sticks = participants[i]->normal_force > 0. && discs.is_interior(i, tau[i]);
+        participants[i]->sticks           = participants[i]->normal_force > 0. &&
+                                  discs.is_interior(i, tau[i]);
       }
   }
 } // namespace akmon

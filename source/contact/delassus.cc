@@ -12,7 +12,8 @@ namespace akmon
   Delassus::Delassus(const ContactNodes &nodes, const Mobility &mobility)
     : nodes(nodes)
     , mobility(mobility)
-  {}
+  {
+  }
 
 
   void

@@ -41,20 +41,20 @@ namespace akmon
       add(const Point<3> &point)
       {
         for (unsigned int d = 0; d < 3; ++d)
-        {
-          lower[d] = std::min(lower[d], point[d]);
-          upper[d] = std::max(upper[d], point[d]);
-        }
+          {
+            lower[d] = std::min(lower[d], point[d]);
+            upper[d] = std::max(upper[d], point[d]);
+          }
       }
 
       void
       add(const Box &other)
       {
         for (unsigned int d = 0; d < 3; ++d)
-        {
-          lower[d] = std::min(lower[d], other.lower[d]);
-          upper[d] = std::max(upper[d], other.upper[d]);
-        }
+          {
+            lower[d] = std::min(lower[d], other.lower[d]);
+            upper[d] = std::max(upper[d], other.upper[d]);
+          }
       }
 
       bool
@@ -152,10 +152,10 @@ namespace akmon
       const auto face = cell->face(f);
       std::array<Point<3>, 10> places;
       for (unsigned int k = 0; k < 4; ++k)
-      {
-        places[k]     = face->vertex(k);
-        places[4 + k] = face->line(k)->center();
-      }
+        {
+          places[k]     = face->vertex(k);
+          places[4 + k] = face->line(k)->center();
+        }
       places[8] = face->center();
       places[9] = cell->center();
       return places;
@@ -192,14 +192,15 @@ namespace akmon
     lies_in(const Point<3> &place, const CellIterator &cell)
     {
       try
-      {
-        const auto reference = StaticMappingQ1<3>::mapping.transform_real_to_unit_cell(cell, place);
-        return GeometryInfo<3>::is_inside_unit_cell(reference, 1e-9);
-      }
+        {
+          const auto reference = StaticMappingQ1<3>::mapping.transform_real_to_unit_cell(cell,
+                                                                                         place);
+          return GeometryInfo<3>::is_inside_unit_cell(reference, 1e-9);
+        }
       catch (const Mapping<3>::ExcTransformationFailed &)
-      {
-        return false; // so far outside that the map has no inverse there
-      }
+        {
+          return false; // so far outside that the map has no inverse there
+        }
     }
 
 
@@ -208,21 +209,22 @@ namespace akmon
     {
     public:
       Boundaries(const Discretization &discretization, const BodyBoxes &boxes)
-        : faces(boxes.whole.size()), trees(boxes.whole.size())
+        : faces(boxes.whole.size())
+        , trees(boxes.whole.size())
       {
         std::vector<std::vector<std::pair<BoundingBox<3>, unsigned int>>> entries(faces.size());
         for (const auto &cell : discretization.cells)
           if (!boxes.partners[cell.body].empty())
             for (const unsigned int f : cell.cell->face_indices())
               if (const auto face = cell.cell->face(f); face->at_boundary())
-              {
-                Box box;
-                for (unsigned int k = 0; k < 4; ++k)
-                  box.add(face->vertex(k));
-                entries[cell.body].emplace_back(box.bounding_box(), faces[cell.body].size());
-                faces[cell.body].push_back(
-                  {{face->vertex(0), face->vertex(1), face->vertex(3), face->vertex(2)}});
-              }
+                {
+                  Box box;
+                  for (unsigned int k = 0; k < 4; ++k)
+                    box.add(face->vertex(k));
+                  entries[cell.body].emplace_back(box.bounding_box(), faces[cell.body].size());
+                  faces[cell.body].push_back(
+                    {{face->vertex(0), face->vertex(1), face->vertex(3), face->vertex(2)}});
+                }
         for (unsigned int body = 0; body < faces.size(); ++body)
           trees[body] = pack_rtree(entries[body]);
       }
@@ -263,33 +265,35 @@ namespace akmon
     {
       std::vector<std::pair<BoundingBox<3>, unsigned int>> entries;
       for (unsigned int c = 0; c < discretization.cells.size(); ++c)
-      {
-        const auto &cell   = discretization.cells[c];
-        const auto &others = boxes.partners[cell.body];
-        const Box box      = box_of(cell.cell);
-        if (cell.owned && std::any_of(others.begin(), others.end(), [&](const unsigned int other) {
-              return box.meets(boxes.whole[other]);
-            }))
-          entries.emplace_back(box.bounding_box(), c);
-      }
+        {
+          const auto &cell   = discretization.cells[c];
+          const auto &others = boxes.partners[cell.body];
+          const Box box      = box_of(cell.cell);
+          if (cell.owned &&
+              std::any_of(others.begin(), others.end(), [&](const unsigned int other) {
+                return box.meets(boxes.whole[other]);
+              }))
+            entries.emplace_back(box.bounding_box(), c);
+        }
       const auto tree = pack_rtree(entries);
 
       std::vector<Sample> found;
       for (auto &sample : samples)
-      {
-        bool inside = false;
-        tree.query(boost::geometry::index::intersects(sample.place),
-                   boost::make_function_output_iterator([&](const auto &entry) {
-                     const auto &cell = discretization.cells[entry.second];
-                     if (!inside && cell.body == sample.outside && lies_in(sample.place, cell.cell))
-                     {
-                       inside           = true;
-                       sample.tolerance = tolerated * cell.cell->minimum_vertex_distance();
-                     }
-                   }));
-        if (inside && boundaries.distance(sample.place, sample.outside) > sample.tolerance)
-          found.push_back(sample);
-      }
+        {
+          bool inside = false;
+          tree.query(boost::geometry::index::intersects(sample.place),
+                     boost::make_function_output_iterator([&](const auto &entry) {
+                       const auto &cell = discretization.cells[entry.second];
+                       if (!inside && cell.body == sample.outside &&
+                           lies_in(sample.place, cell.cell))
+                         {
+                           inside           = true;
+                           sample.tolerance = tolerated * cell.cell->minimum_vertex_distance();
+                         }
+                     }));
+          if (inside && boundaries.distance(sample.place, sample.outside) > sample.tolerance)
+            found.push_back(sample);
+        }
       return found;
     }
   } // namespace
@@ -326,11 +330,11 @@ namespace akmon
              std::make_tuple(-b.depth, b.inside, b.outside, b.place[0], b.place[1], b.place[2]);
     };
     for (unsigned int i = 0; i < all.size(); ++i)
-    {
-      const BodyOverlap overlap{all[i].inside, all[i].outside, all[i].place, depths[i]};
-      if (depths[i] > all[i].tolerance && (!deepest || before(overlap, *deepest)))
-        deepest = overlap;
-    }
+      {
+        const BodyOverlap overlap{all[i].inside, all[i].outside, all[i].place, depths[i]};
+        if (depths[i] > all[i].tolerance && (!deepest || before(overlap, *deepest)))
+          deepest = overlap;
+      }
     return deepest;
   }
 

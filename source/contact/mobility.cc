@@ -7,7 +7,8 @@ namespace akmon
   Mobility::Mobility(const Discretization &discretization, const EssentialConditions &conditions)
     : discretization(discretization)
     , conditions(conditions)
-  {}
+  {
+  }
 
 
   void
@@ -19,7 +20,7 @@ namespace akmon
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       {
         const unsigned int node = nodes.local_node(i);
-        const auto         W_i  = conditions.projector(node) / discretization.mass[node];
+        const auto W_i          = conditions.projector(node) / discretization.mass[node];
         diagonal.set(i, Tensor<1, 3>({W_i[0][0], W_i[1][1], W_i[2][2]}));
         off_diagonal.set(i, Tensor<1, 3>({W_i[1][2], W_i[2][0], W_i[0][1]}));
       }
@@ -36,9 +37,9 @@ namespace akmon
 
 
   double
-  Mobility::along(const ContactPair & pair,
+  Mobility::along(const ContactPair &pair,
                   const Tensor<1, 3> &direction,
-                  const double        mass_factor) const
+                  const double mass_factor) const
   {
     double sum = 0.;
     for (unsigned int k = 0; k < pair.n_nodes; ++k)

@@ -24,12 +24,12 @@ namespace akmon
     {
       Tangents t;
       for (unsigned int k = 0; k < 4; ++k)
-      {
-        const double a = 1. + corners[k][0] * xi, b = 1. + corners[k][1] * eta;
-        t.point += 0.25 * a * b * segment[k];
-        t.along_xi += 0.25 * corners[k][0] * b * segment[k];
-        t.along_eta += 0.25 * corners[k][1] * a * segment[k];
-      }
+        {
+          const double a = 1. + corners[k][0] * xi, b = 1. + corners[k][1] * eta;
+          t.point += 0.25 * a * b * segment[k];
+          t.along_xi += 0.25 * corners[k][0] * b * segment[k];
+          t.along_eta += 0.25 * corners[k][1] * a * segment[k];
+        }
       return t;
     }
 
@@ -43,20 +43,20 @@ namespace akmon
 
       xi = eta = 0.;
       for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
-      {
-        const Tangents t = evaluate(segment, xi, eta);
-        const auto r     = slave - t.point;
-        const double a = t.along_xi * t.along_xi, b = t.along_xi * t.along_eta,
-                     c = t.along_eta * t.along_eta, p = t.along_xi * r, q = t.along_eta * r;
-        const double determinant = a * c - b * b;
-        if (!(determinant > 0.))
-          return false;
-        const double d_xi = (c * p - b * q) / determinant, d_eta = (a * q - b * p) / determinant;
-        xi  = std::clamp(xi + d_xi, -reach, reach);
-        eta = std::clamp(eta + d_eta, -reach, reach);
-        if (std::abs(d_xi) + std::abs(d_eta) < 1e-14)
-          break;
-      }
+        {
+          const Tangents t = evaluate(segment, xi, eta);
+          const auto r     = slave - t.point;
+          const double a = t.along_xi * t.along_xi, b = t.along_xi * t.along_eta,
+                       c = t.along_eta * t.along_eta, p = t.along_xi * r, q = t.along_eta * r;
+          const double determinant = a * c - b * b;
+          if (!(determinant > 0.))
+            return false;
+          const double d_xi = (c * p - b * q) / determinant, d_eta = (a * q - b * p) / determinant;
+          xi  = std::clamp(xi + d_xi, -reach, reach);
+          eta = std::clamp(eta + d_eta, -reach, reach);
+          if (std::abs(d_xi) + std::abs(d_eta) < 1e-14)
+            break;
+        }
       return std::abs(xi) <= 1. && std::abs(eta) <= 1.;
     }
 
@@ -67,20 +67,21 @@ namespace akmon
     {
       double best = -1.;
       for (unsigned int e = 0; e < 4; ++e)
-      {
-        const unsigned int e1 = (e + 1) % 4;
-        const auto direction  = segment[e1] - segment[e];
-        const double length   = direction * direction;
-        const double s = length > 0. ? std::clamp((slave - segment[e]) * direction / length, 0., 1.)
-                                     : 0.;
-        const double distance = (slave - segment[e] - s * direction).norm_square();
-        if (best < 0. || distance < best)
         {
-          best = distance;
-          xi   = (1. - s) * corners[e][0] + s * corners[e1][0];
-          eta  = (1. - s) * corners[e][1] + s * corners[e1][1];
+          const unsigned int e1 = (e + 1) % 4;
+          const auto direction  = segment[e1] - segment[e];
+          const double length   = direction * direction;
+          const double s        = length > 0. ?
+                                    std::clamp((slave - segment[e]) * direction / length, 0., 1.) :
+                                    0.;
+          const double distance = (slave - segment[e] - s * direction).norm_square();
+          if (best < 0. || distance < best)
+            {
+              best = distance;
+              xi   = (1. - s) * corners[e][0] + s * corners[e1][0];
+              eta  = (1. - s) * corners[e][1] + s * corners[e1][1];
+            }
         }
-      }
     }
 
 
@@ -91,17 +92,17 @@ namespace akmon
       const bool at_xi  = std::abs(projection.xi) >= 1. - tolerance;
       const bool at_eta = std::abs(projection.eta) >= 1. - tolerance;
       if (at_xi && at_eta)
-      {
-        projection.feature = Projection::Feature::vertex;
-        for (unsigned int k = 0; k < 4; ++k)
-          if (corners[k][0] * projection.xi > 0. && corners[k][1] * projection.eta > 0.)
-            projection.where = k;
-      }
+        {
+          projection.feature = Projection::Feature::vertex;
+          for (unsigned int k = 0; k < 4; ++k)
+            if (corners[k][0] * projection.xi > 0. && corners[k][1] * projection.eta > 0.)
+              projection.where = k;
+        }
       else if (at_xi || at_eta)
-      {
-        projection.feature = Projection::Feature::edge;
-        projection.where   = at_eta ? (projection.eta < 0. ? 0 : 2) : (projection.xi > 0. ? 1 : 3);
-      }
+        {
+          projection.feature = Projection::Feature::edge;
+          projection.where = at_eta ? (projection.eta < 0. ? 0 : 2) : (projection.xi > 0. ? 1 : 3);
+        }
     }
   } // namespace
 
@@ -115,11 +116,11 @@ namespace akmon
 
     projection.offset = slave;
     for (unsigned int k = 0; k < 4; ++k)
-    {
-      projection.N[k] = 0.25 * (1. + corners[k][0] * projection.xi) *
-                        (1. + corners[k][1] * projection.eta);
-      projection.offset -= projection.N[k] * segment[k];
-    }
+      {
+        projection.N[k] = 0.25 * (1. + corners[k][0] * projection.xi) *
+                          (1. + corners[k][1] * projection.eta);
+        projection.offset -= projection.N[k] * segment[k];
+      }
     classify(projection, edge_tolerance);
     return projection;
   }

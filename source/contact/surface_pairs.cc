@@ -21,13 +21,13 @@ namespace akmon
   {
     Tensor<1, 3> normal;
     for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
-    {
-      const auto &face = slave_faces[slave_face_list[i]];
-      normal += area_vector({{at_node(positions, face.nodes[0]),
-                              at_node(positions, face.nodes[1]),
-                              at_node(positions, face.nodes[2]),
-                              at_node(positions, face.nodes[3])}});
-    }
+      {
+        const auto &face = slave_faces[slave_face_list[i]];
+        normal += area_vector({{at_node(positions, face.nodes[0]),
+                                at_node(positions, face.nodes[1]),
+                                at_node(positions, face.nodes[2]),
+                                at_node(positions, face.nodes[3])}});
+      }
     return normal;
   }
 
@@ -54,21 +54,21 @@ namespace akmon
     const auto point        = x[node];
     double best             = std::numeric_limits<double>::max();
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
-    {
-      const auto &face = masters[candidates[i]];
-      if (std::find(face.nodes.begin(), face.nodes.end(), node) != face.nodes.end())
-        continue;
-      const Segment corners = segment(x, face);
-      if (area_vector(corners) * outward >= 0.)
-        continue;
-      const Projection projection = project(point, corners);
-      const double distance       = projection.offset.norm_square();
-      if (distance < best)
       {
-        best    = distance;
-        partner = {candidates[i], projection};
+        const auto &face = masters[candidates[i]];
+        if (std::find(face.nodes.begin(), face.nodes.end(), node) != face.nodes.end())
+          continue;
+        const Segment corners = segment(x, face);
+        if (area_vector(corners) * outward >= 0.)
+          continue;
+        const Projection projection = project(point, corners);
+        const double distance       = projection.offset.norm_square();
+        if (distance < best)
+          {
+            best    = distance;
+            partner = {candidates[i], projection};
+          }
       }
-    }
     return best < std::numeric_limits<double>::max();
   }
 
@@ -110,33 +110,34 @@ namespace akmon
 
     Tensor<1, 3> sum;
     for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
-    {
-      const auto &neighbour = masters[faces_at[i]];
-      const auto corner     = std::find(neighbour.nodes.begin(), neighbour.nodes.end(), a) -
-                          neighbour.nodes.begin();
-      const unsigned int next = neighbour.nodes[(corner + 1) % 4],
-                         last = neighbour.nodes[(corner + 3) % 4];
-      if (projection.feature == Projection::Feature::edge)
       {
-        if (next != b && last != b)
-          continue;
-        on_rim = faces_sharing(a, b) == 1;
+        const auto &neighbour = masters[faces_at[i]];
+        const auto corner     = std::find(neighbour.nodes.begin(), neighbour.nodes.end(), a) -
+                            neighbour.nodes.begin();
+        const unsigned int next = neighbour.nodes[(corner + 1) % 4],
+                           last = neighbour.nodes[(corner + 3) % 4];
+        if (projection.feature == Projection::Feature::edge)
+          {
+            if (next != b && last != b)
+              continue;
+            on_rim = faces_sharing(a, b) == 1;
+          }
+        else
+          on_rim = on_rim || faces_sharing(a, next) == 1 || faces_sharing(a, last) == 1;
+        const auto normal = area_vector(segment(x, neighbour));
+        sum += normal / normal.norm();
       }
-      else
-        on_rim = on_rim || faces_sharing(a, next) == 1 || faces_sharing(a, last) == 1;
-      const auto normal = area_vector(segment(x, neighbour));
-      sum += normal / normal.norm();
-    }
     return sum / sum.norm();
   }
 
 
   void
-  SurfaceSearch::find_pairs(const NodalVector &        positions,
+  SurfaceSearch::find_pairs(const NodalVector &positions,
                             const ContactNodes::Field &x,
-                            std::vector<ContactPair> & pairs) const
+                            std::vector<ContactPair> &pairs) const
   {
-    // A node further inside than this part of the cell behind the face belongs to another face's side.
+    // A node further inside than this part of the cell behind the face belongs to another face's
+    // side.
     constexpr double deepest_part = 0.5;
 
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
@@ -149,16 +150,17 @@ namespace akmon
         if (contact.gap_model == SurfaceContact::GapModel::point_to_point)
           snap_to_closest_node(x, x[slaves[s].number], partner);
 
-        bool         on_rim;
-        const auto   normal    = feature_normal(x, partner, on_rim);
-        const auto & face      = masters[partner.face];
+        bool on_rim;
+        const auto normal      = feature_normal(x, partner, on_rim);
+        const auto &face       = masters[partner.face];
         const double gap       = normal * partner.projection.offset;
         const double overhang  = (partner.projection.offset - gap * normal).norm();
         const double face_size = std::sqrt(area_vector(segment(x, face)).norm());
         const double allowed   = contact.gap_model == SurfaceContact::GapModel::point_to_point ?
                                    0.5 * face_size :
                                    contact.rim_tolerance * face_size;
-        if (gap > search_radius || gap < -deepest_part * face.depth || (on_rim && overhang > allowed))
+        if (gap > search_radius || gap < -deepest_part * face.depth ||
+            (on_rim && overhang > allowed))
           continue;
 
         ContactPair pair;

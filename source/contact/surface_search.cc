@@ -45,10 +45,10 @@ namespace akmon
       double sum = 0., n = 0.;
       for (const auto &face : faces)
         if (face.owned)
-        {
-          sum += face_size(discretization, face);
-          n += 1.;
-        }
+          {
+            sum += face_size(discretization, face);
+            n += 1.;
+          }
       n = Utilities::MPI::sum(n, discretization.communicator());
       return n > 0. ? Utilities::MPI::sum(sum, discretization.communicator()) / n : 0.;
     }
@@ -66,8 +66,8 @@ namespace akmon
 
   SurfaceSearch::SurfaceSearch(const Discretization &discretization,
                                const SurfaceContact &contact,
-                               const unsigned int    interface,
-                               const bool            reversed)
+                               const unsigned int interface,
+                               const bool reversed)
     : discretization(discretization)
     , contact(contact)
     , interface(interface)
@@ -77,9 +77,9 @@ namespace akmon
   {
     if (reversed)
       std::swap(slave_faces, master_faces);
-    search_radius =
-      0.5 * std::max(mean_size(discretization, slave_faces), mean_size(discretization, master_faces));
-    faces = slave_faces;
+    search_radius = 0.5 * std::max(mean_size(discretization, slave_faces),
+                                   mean_size(discretization, master_faces));
+    faces         = slave_faces;
     faces.insert(faces.end(), master_faces.begin(), master_faces.end());
     collect_slaves();
   }
@@ -107,19 +107,19 @@ namespace akmon
           new_slave(node);
         slave_face_list.push_back(f);
         for (unsigned int k = 0; k < 4; ++k)
-          slaves.back().size =
-            std::min(slaves.back().size,
-                     (at_node(discretization.reference, slave_faces[f].nodes[k]) -
-                      at_node(discretization.reference, slave_faces[f].nodes[(k + 1) % 4]))
-                       .norm());
+          slaves.back()
+            .size = std::min(slaves.back().size,
+                             (at_node(discretization.reference, slave_faces[f].nodes[k]) -
+                              at_node(discretization.reference, slave_faces[f].nodes[(k + 1) % 4]))
+                               .norm());
       }
     new_slave(numbers::invalid_unsigned_int);
   }
 
 
-  // Per rank the box around its slaves, lower corner and upper corner, widened so that it meets every face
-  // within the radius of a slave and the neighbours of such faces (whose normals count at edges and
-  // vertices). Empty (upper below lower) for ranks without slaves.
+  // Per rank the box around its slaves, lower corner and upper corner, widened so that it meets
+  // every face within the radius of a slave and the neighbours of such faces (whose normals count
+  // at edges and vertices). Empty (upper below lower) for ranks without slaves.
   std::vector<std::array<double, 6>>
   SurfaceSearch::slave_boxes_of_all_ranks(const NodalVector &x) const
   {
@@ -127,9 +127,10 @@ namespace akmon
     for (const auto &face : master_faces)
       for (unsigned int k = 0; k < 2; ++k)
         largest_diagonal = std::max(largest_diagonal,
-                                    (at_node(x, face.nodes[k]) - at_node(x, face.nodes[k + 2])).norm());
-    const double margin =
-      search_radius + Utilities::MPI::max(largest_diagonal, discretization.communicator());
+                                    (at_node(x, face.nodes[k]) - at_node(x, face.nodes[k + 2]))
+                                      .norm());
+    const double margin = search_radius +
+                          Utilities::MPI::max(largest_diagonal, discretization.communicator());
 
     std::vector<Point<3>> points;
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
@@ -151,16 +152,16 @@ namespace akmon
   std::vector<ContactNodes::Id>
   SurfaceSearch::fetch_master_faces(const ContactNodes &nodes, const NodalVector &x)
   {
-    const MPI_Comm     communicator = discretization.communicator();
-    const unsigned int me           = Utilities::MPI::this_mpi_process(communicator);
-    const auto         slave_boxes  = slave_boxes_of_all_ranks(x);
+    const MPI_Comm communicator = discretization.communicator();
+    const unsigned int me       = Utilities::MPI::this_mpi_process(communicator);
+    const auto slave_boxes      = slave_boxes_of_all_ranks(x);
 
     std::map<unsigned int, std::vector<FaceMessage>> outgoing;
     for (const auto &face : master_faces)
       if (face.owned)
         {
           std::vector<Point<3>> points;
-          FaceMessage           message{face.id, face.body, face.depth, {}};
+          FaceMessage message{face.id, face.body, face.depth, {}};
           for (unsigned int k = 0; k < 4; ++k)
             {
               points.emplace_back(at_node(x, face.nodes[k]));
@@ -181,7 +182,9 @@ namespace akmon
     outgoing.erase(me);
     for (const auto &[rank, messages] : Utilities::MPI::some_to_some(communicator, outgoing))
       fetched.insert(fetched.end(), messages.begin(), messages.end());
-    std::sort(fetched.begin(), fetched.end(), [](const auto &a, const auto &b) { return a.id < b.id; });
+    std::sort(fetched.begin(), fetched.end(), [](const auto &a, const auto &b) {
+      return a.id < b.id;
+    });
 
     std::vector<ContactNodes::Id> needed;
     for (const auto &face : fetched)
@@ -197,42 +200,42 @@ namespace akmon
     std::vector<std::pair<unsigned int, unsigned int>> incidence; // (contact node, face)
     std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
     for (const auto &message : fetched)
-    {
-      MasterFace face{message.body, message.depth, {}};
-      std::vector<Point<3>> points;
-      for (unsigned int k = 0; k < 4; ++k)
       {
-        face.nodes[k] = nodes.number(message.nodes[k]);
-        points.emplace_back(x[face.nodes[k]]);
-        incidence.emplace_back(face.nodes[k], masters.size());
+        MasterFace face{message.body, message.depth, {}};
+        std::vector<Point<3>> points;
+        for (unsigned int k = 0; k < 4; ++k)
+          {
+            face.nodes[k] = nodes.number(message.nodes[k]);
+            points.emplace_back(x[face.nodes[k]]);
+            incidence.emplace_back(face.nodes[k], masters.size());
+          }
+        boxes.emplace_back(box_around(points, search_radius), masters.size());
+        masters.push_back(face);
       }
-      boxes.emplace_back(box_around(points, search_radius), masters.size());
-      masters.push_back(face);
-    }
 
     std::sort(incidence.begin(), incidence.end());
     faces_at.clear();
     faces_at_begin.assign(incidence.empty() ? 1 : incidence.back().first + 2, 0);
     for (const auto &[node, f] : incidence)
-    {
-      faces_at.push_back(f);
-      ++faces_at_begin[node + 1];
-    }
+      {
+        faces_at.push_back(f);
+        ++faces_at_begin[node + 1];
+      }
     for (unsigned int i = 1; i < faces_at_begin.size(); ++i)
       faces_at_begin[i] += faces_at_begin[i - 1];
 
     const auto tree = pack_rtree(boxes);
     candidates.clear();
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-    {
-      slaves[s].first_candidate = candidates.size();
-      slaves[s].id              = nodes.id_of_local(slaves[s].node);
-      slaves[s].number          = nodes.number(slaves[s].id);
-      tree.query(boost::geometry::index::intersects(Point<3>(x[slaves[s].number])),
-                 boost::make_function_output_iterator(
-                   [&](const auto &entry) { candidates.push_back(entry.second); }));
-      std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());
-    }
+      {
+        slaves[s].first_candidate = candidates.size();
+        slaves[s].id              = nodes.id_of_local(slaves[s].node);
+        slaves[s].number          = nodes.number(slaves[s].id);
+        tree.query(boost::geometry::index::intersects(Point<3>(x[slaves[s].number])),
+                   boost::make_function_output_iterator(
+                     [&](const auto &entry) { candidates.push_back(entry.second); }));
+        std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());
+      }
     slaves.back().first_candidate = candidates.size();
   }
 } // namespace akmon

@@ -28,17 +28,17 @@ namespace akmon
     state.resize(n_batches * batch_stride(), 0.);
     frequencies.resize(std::size_t(n_batches) * 2 * n_lanes, 0.);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
-    {
-      const std::size_t begin = std::size_t(batch) * n_lanes;
-      n_used_lanes.push_back(std::min<std::size_t>(n_lanes, n_cells - begin));
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
       {
-        const bool used  = lane < n_used_lanes.back();
-        const auto &cell = cells[first_cell + begin + (used ? lane : 0)];
-        for (unsigned int v = 0; v < 8; ++v)
-          node_offsets[(std::size_t(batch) * 8 + v) * n_lanes + lane] = 3 * cell.nodes[v];
-        owned[begin + lane] = used && cell.owned ? 1. : 0.;
+        const std::size_t begin = std::size_t(batch) * n_lanes;
+        n_used_lanes.push_back(std::min<std::size_t>(n_lanes, n_cells - begin));
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          {
+            const bool used  = lane < n_used_lanes.back();
+            const auto &cell = cells[first_cell + begin + (used ? lane : 0)];
+            for (unsigned int v = 0; v < 8; ++v)
+              node_offsets[(std::size_t(batch) * 8 + v) * n_lanes + lane] = 3 * cell.nodes[v];
+            owned[begin + lane] = used && cell.owned ? 1. : 0.;
+          }
       }
-    }
   }
 } // namespace akmon

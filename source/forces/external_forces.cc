@@ -65,15 +65,17 @@ namespace akmon
   ExternalForces::ExternalForces(const Discretization &discretization,
                                  const std::vector<SurfaceLoad> &surface_loads,
                                  const BodyForce &body_force)
-    : discretization(discretization), surface_loads(surface_loads), body_force(body_force)
+    : discretization(discretization)
+    , surface_loads(surface_loads)
+    , body_force(body_force)
   {
     for (const auto &load : surface_loads)
-    {
-      std::set<types::boundary_id> ids;
-      for (const auto &surface : load.surfaces)
-        ids.merge(discretization.boundary_ids("Loads/" + load.name, "Surfaces", surface));
-      loaded_faces.push_back(discretization.faces_on(ids));
-    }
+      {
+        std::set<types::boundary_id> ids;
+        for (const auto &surface : load.surfaces)
+          ids.merge(discretization.boundary_ids("Loads/" + load.name, "Surfaces", surface));
+        loaded_faces.push_back(discretization.faces_on(ids));
+      }
     if (!surface_loads.empty() || !body_force.acceleration.identically_zero())
       current = discretization.make_vector();
   }
@@ -101,14 +103,14 @@ namespace akmon
     const bool uniform        = body_force.acceleration.uniform();
     Tensor<1, 3> acceleration = body_force.acceleration.vector(Point<3>(), state.time);
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
-    {
-      if (!uniform)
-        acceleration = body_force.acceleration.vector(Point<3>(
-                                                        at_node(discretization.reference, node)),
-                                                      state.time);
-      for (unsigned int d = 0; d < 3; ++d)
-        force.local_element(3 * node + d) += discretization.mass[node] * acceleration[d];
-    }
+      {
+        if (!uniform)
+          acceleration = body_force.acceleration.vector(Point<3>(
+                                                          at_node(discretization.reference, node)),
+                                                        state.time);
+        for (unsigned int d = 0; d < 3; ++d)
+          force.local_element(3 * node + d) += discretization.mass[node] * acceleration[d];
+      }
   }
 
 
@@ -124,28 +126,28 @@ namespace akmon
       {{{-1, -1}}, {{1, -1}}, {{1, 1}}, {{-1, 1}}}};
     for (const auto &face : faces)
       for (const auto &point : corner)
-      {
-        Tensor<1, 3> X, t_xi, t_eta;
-        std::array<double, 4> shape;
-        for (unsigned int v = 0; v < 4; ++v)
         {
-          const double xi  = 1. + corner[v][0] * g * point[0],
-                       eta = 1. + corner[v][1] * g * point[1];
-          const auto x     = at_node(state.x, face.nodes[v]);
-          shape[v]         = 0.25 * xi * eta;
-          X += shape[v] * at_node(discretization.reference, face.nodes[v]);
-          t_xi += 0.25 * corner[v][0] * eta * x;
-          t_eta += 0.25 * corner[v][1] * xi * x;
+          Tensor<1, 3> X, t_xi, t_eta;
+          std::array<double, 4> shape;
+          for (unsigned int v = 0; v < 4; ++v)
+            {
+              const double xi  = 1. + corner[v][0] * g * point[0],
+                           eta = 1. + corner[v][1] * g * point[1];
+              const auto x     = at_node(state.x, face.nodes[v]);
+              shape[v]         = 0.25 * xi * eta;
+              X += shape[v] * at_node(discretization.reference, face.nodes[v]);
+              t_xi += 0.25 * corner[v][0] * eta * x;
+              t_eta += 0.25 * corner[v][1] * xi * x;
+            }
+          const auto normal = cross_product_3d(t_xi, t_eta); // length: area of the point
+          const auto f      = load.type == SurfaceLoad::Type::pressure ?
+                                -load.function.value(Point<3>(X), state.time) * normal :
+                                load.function.vector(Point<3>(X), state.time) * normal.norm();
+          for (unsigned int v = 0; v < 4; ++v)
+            if (face.nodes[v] < discretization.n_owned_nodes)
+              for (unsigned int d = 0; d < 3; ++d)
+                force.local_element(3 * face.nodes[v] + d) += shape[v] * f[d];
         }
-        const auto normal = cross_product_3d(t_xi, t_eta); // length: area of the point
-        const auto f      = load.type == SurfaceLoad::Type::pressure
-                              ? -load.function.value(Point<3>(X), state.time) * normal
-                              : load.function.vector(Point<3>(X), state.time) * normal.norm();
-        for (unsigned int v = 0; v < 4; ++v)
-          if (face.nodes[v] < discretization.n_owned_nodes)
-            for (unsigned int d = 0; d < 3; ++d)
-              force.local_element(3 * face.nodes[v] + d) += shape[v] * f[d];
-      }
   }
 
 

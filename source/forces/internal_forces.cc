@@ -5,8 +5,8 @@ namespace akmon
 {
   namespace
   {
-    // A cell's frequency is computed anew when it may have grown by this factor since (squared), and only
-    // if the cell is about to govern the step; until then the bound on its growth does.
+    // A cell's frequency is computed anew when it may have grown by this factor since (squared),
+    // and only if the cell is about to govern the step; until then the bound on its growth does.
     constexpr double growth_tolerance = 1.035;
     constexpr double governing_part   = 0.99;
   } // namespace
@@ -16,41 +16,44 @@ namespace akmon
     : discretization(discretization)
   {
     for (unsigned int body = 0; body < discretization.get_bodies().size(); ++body)
-    {
-      body_batches.emplace_back(discretization, body);
-      CellBatches &batches = body_batches.back();
-      for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
       {
-        calibrate(discretization.reference, batches, batch, Lanes(0.) < Lanes(1.));
-        const double *const omega_squared = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
-        for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
-          if (omega_squared[lane] > frequency_squared)
+        body_batches.emplace_back(discretization, body);
+        CellBatches &batches = body_batches.back();
+        for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
           {
-            frequency_squared       = omega_squared[lane];
-            initially_limiting_cell = batches.first_cell + std::size_t(batch) * n_lanes + lane;
+            calibrate(discretization.reference, batches, batch, Lanes(0.) < Lanes(1.));
+            const double *const omega_squared = &batches
+                                                   .frequencies[std::size_t(batch) * 2 * n_lanes];
+            for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
+              if (omega_squared[lane] > frequency_squared)
+                {
+                  frequency_squared       = omega_squared[lane];
+                  initially_limiting_cell = batches.first_cell + std::size_t(batch) * n_lanes +
+                                            lane;
+                }
           }
       }
-    }
   }
 
 
   void
-  InternalForces::calibrate(const NodalVector &           x,
-                            CellBatches &                 batches,
-                            const unsigned int            batch,
+  InternalForces::calibrate(const NodalVector &x,
+                            CellBatches &batches,
+                            const unsigned int batch,
                             const Lanes::batch_bool_type &wanted)
   {
     Lanes positions[8][3], reference[8][3], mass[8];
     gather(x.begin(), batches.nodes(batch), positions);
     gather(discretization.reference.begin(), batches.nodes(batch), reference);
     lump_cell_mass(reference, discretization.material_of(batches.body).density, mass);
-    const Lanes omega_squared =
-      largest_eigenvalue(positions,
-                         mass,
-                         discretization.material_of(batches.body).elasticity(),
-                         discretization.get_bodies()[batches.body].integration);
+    const Lanes
+      omega_squared = largest_eigenvalue(positions,
+                                         mass,
+                                         discretization.material_of(batches.body).elasticity(),
+                                         discretization.get_bodies()[batches.body].integration);
 
-    // The other lanes keep what they have: a cell's step must not depend on which cells share its batch.
+    // The other lanes keep what they have: a cell's step must not depend on which cells share its
+    // batch.
     double *const frequency = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
     double *const growth    = frequency + n_lanes;
     select(wanted, omega_squared, Lanes::load_aligned(frequency)).store_aligned(frequency);
@@ -87,44 +90,44 @@ namespace akmon
     Lanes largest(0.);
     to_calibrate.clear();
     for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
-    {
-      Lanes positions[8][3], increments[8][3], forces[8][3];
-      gather(x.begin(), batches.nodes(batch), positions);
-      gather(dx.begin(), batches.nodes(batch), increments);
+      {
+        Lanes positions[8][3], increments[8][3], forces[8][3];
+        gather(x.begin(), batches.nodes(batch), positions);
+        gather(dx.begin(), batches.nodes(batch), increments);
 
-      const CellGeometry<Lanes> cell(positions, increments);
-      const Lanes owned = Lanes::load_aligned(&batches.owned[batch * n_lanes]);
-      const Lanes strain_squared =
-        update_stress_and_force<mean_dilatation>(law,
-                                               cell,
-                                               owned,
-                                               batches.state_at(batch),
-                                               sums,
-                                               forces);
-      scatter_subtract(forces, batches.nodes(batch), batches.n_used_lanes[batch], force.begin());
+        const CellGeometry<Lanes> cell(positions, increments);
+        const Lanes owned          = Lanes::load_aligned(&batches.owned[batch * n_lanes]);
+        const Lanes strain_squared = update_stress_and_force<mean_dilatation>(law,
+                                                                              cell,
+                                                                              owned,
+                                                                              batches.state_at(
+                                                                                batch),
+                                                                              sums,
+                                                                              forces);
+        scatter_subtract(forces, batches.nodes(batch), batches.n_used_lanes[batch], force.begin());
 
-      // A comparison with NaN is false: this finds inverted and non-finite cells.
-      const auto valid = cell.smallest_jacobian > Lanes(0.);
-      if (!xsimd::all(valid) && !cell_fault.occurred())
-        for (unsigned int lane = 0; lane < n_lanes; ++lane)
-          if (!valid.get(lane))
-          {
-            report_fault(x, batches, batch, lane);
-            break;
-          }
+        // A comparison with NaN is false: this finds inverted and non-finite cells.
+        const auto valid = cell.smallest_jacobian > Lanes(0.);
+        if (!xsimd::all(valid) && !cell_fault.occurred())
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+            if (!valid.get(lane))
+              {
+                report_fault(x, batches, batch, lane);
+                break;
+              }
 
-      const auto recalibrate = bound_frequency(strain_squared, batches, batch, largest);
-      if (xsimd::any(recalibrate))
-        to_calibrate.emplace_back(batch, recalibrate);
-    }
+        const auto recalibrate = bound_frequency(strain_squared, batches, batch, largest);
+        if (xsimd::any(recalibrate))
+          to_calibrate.emplace_back(batch, recalibrate);
+      }
     work += xsimd::hadd(sums.internal_work);
     dissipated += xsimd::hadd(sums.plastic_work);
     if (!cell_fault.occurred())
       for (const auto &[batch, wanted] : to_calibrate)
         {
           calibrate(x, batches, batch, wanted);
-          const Lanes omega_squared =
-            Lanes::load_aligned(&batches.frequencies[std::size_t(batch) * 2 * n_lanes]);
+          const Lanes omega_squared = Lanes::load_aligned(
+            &batches.frequencies[std::size_t(batch) * 2 * n_lanes]);
           largest = maximum(largest, select(wanted, omega_squared, Lanes(0.)));
         }
     for (unsigned int lane = 0; lane < n_lanes; ++lane)
@@ -132,20 +135,20 @@ namespace akmon
   }
 
 
-  // Let the bound of each cell's frequency grow with the strain of the step. Returns the cells whose bound
-  // has become too loose; the others enter the maximum.
+  // Let the bound of each cell's frequency grow with the strain of the step. Returns the cells
+  // whose bound has become too loose; the others enter the maximum.
   Lanes::batch_bool_type
-  InternalForces::bound_frequency(const Lanes &      strain_squared,
-                                  CellBatches &      batches,
+  InternalForces::bound_frequency(const Lanes &strain_squared,
+                                  CellBatches &batches,
                                   const unsigned int batch,
-                                  Lanes &            largest) const
+                                  Lanes &largest) const
   {
     double *const frequency = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
-    const Lanes   factor    = frequency_growth(strain_squared);
-    const Lanes   growth    = Lanes::load_aligned(frequency + n_lanes) * factor * factor;
+    const Lanes factor      = frequency_growth(strain_squared);
+    const Lanes growth      = Lanes::load_aligned(frequency + n_lanes) * factor * factor;
     growth.store_aligned(frequency + n_lanes);
-    const Lanes bound       = Lanes::load_aligned(frequency) * growth;
-    const auto  recalibrate = (growth > Lanes(growth_tolerance)) &&
+    const Lanes bound      = Lanes::load_aligned(frequency) * growth;
+    const auto recalibrate = (growth > Lanes(growth_tolerance)) &&
                              (bound > Lanes(governing_part * governing_frequency_squared));
     largest = maximum(largest, select(recalibrate, Lanes(0.), bound));
     return recalibrate;

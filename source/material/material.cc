@@ -30,9 +30,9 @@ namespace akmon
     law_by_name(const std::string &name, std::index_sequence<I...>)
     {
       MaterialLaw law;
-      ((name == std::variant_alternative_t<I, MaterialLaw>::name
-          ? (void)(law = std::variant_alternative_t<I, MaterialLaw>())
-          : (void)0),
+      ((name == std::variant_alternative_t<I, MaterialLaw>::name ?
+          (void)(law = std::variant_alternative_t<I, MaterialLaw>()) :
+          (void)0),
        ...);
       return law;
     }

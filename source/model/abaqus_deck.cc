@@ -46,27 +46,29 @@ namespace akmon
   {
     std::string keyword;
     for (std::string line; std::getline(stream, line);)
-    {
-      line = upper_case(dealii::Utilities::trim(line));
-      if (line.empty() || line.compare(0, 2, "**") == 0)
-        continue;
-      if (line[0] != '*')
       {
-        read_data(keyword, line);
-        continue;
+        line = upper_case(dealii::Utilities::trim(line));
+        if (line.empty() || line.compare(0, 2, "**") == 0)
+          continue;
+        if (line[0] != '*')
+          {
+            read_data(keyword, line);
+            continue;
+          }
+        const auto entries = split_list(line);
+        keyword            = entries[0];
+        options.clear();
+        for (const auto &entry : entries)
+          {
+            const auto equals                                         = entry.find('=');
+            options[dealii::Utilities::trim(entry.substr(0, equals))] = equals ==
+                                                                            std::string::npos ?
+                                                                          "" :
+                                                                          dealii::Utilities::trim(
+                                                                            entry.substr(equals +
+                                                                                         1));
+          }
       }
-      const auto entries = split_list(line);
-      keyword            = entries[0];
-      options.clear();
-      for (const auto &entry : entries)
-      {
-        const auto equals                                         = entry.find('=');
-        options[dealii::Utilities::trim(entry.substr(0, equals))] = equals == std::string::npos
-                                                                      ? ""
-                                                                      : dealii::Utilities::trim(
-                                                                          entry.substr(equals + 1));
-      }
-    }
     if (positions.empty() && n_others == 0)
       throw std::runtime_error("there are no elements");
   }
@@ -82,8 +84,8 @@ namespace akmon
   std::string
   AbaqusDeck::other_elements() const
   {
-    return other_type == "C3D4" || other_type == "C3D10" ? "tetrahedra"
-                                                         : "elements of type " + other_type;
+    return other_type == "C3D4" || other_type == "C3D10" ? "tetrahedra" :
+                                                           "elements of type " + other_type;
   }
 
 
@@ -113,11 +115,11 @@ namespace akmon
   {
     static const std::set<std::string> hexahedra = {"C3D8", "C3D8R", "C3D8I", "C3D8H", "C3D8RH"};
     if (hexahedra.count(options["TYPE"]) == 0)
-    {
-      ++n_others;
-      other_type = options["TYPE"];
-      return;
-    }
+      {
+        ++n_others;
+        other_type = options["TYPE"];
+        return;
+      }
     const auto entries = split_list(line);
     const long element = number(entries[0]);
     if (entries.size() != 9)
@@ -135,12 +137,12 @@ namespace akmon
     const auto entries = split_list(line);
     auto &set          = sets[name];
     if (generate && entries.size() >= 2)
-    {
-      const long step = entries.size() > 2 ? std::max(1l, number(entries[2])) : 1;
-      for (long i = number(entries[0]); i <= number(entries[1]); i += step)
-        set.push_back(i);
-      return;
-    }
+      {
+        const long step = entries.size() > 2 ? std::max(1l, number(entries[2])) : 1;
+        for (long i = number(entries[0]); i <= number(entries[1]); i += step)
+          set.push_back(i);
+        return;
+      }
     for (const auto &entry : entries)
       if (const auto other = sets.find(entry); other != sets.end() && entry != name)
         set.insert(set.end(), other->second.begin(), other->second.end());
@@ -166,12 +168,12 @@ namespace akmon
     surfaces += "*SURFACE, NAME=SS" + name.substr(digits) + "\n";
     for (const long element :
          set != sets.end() ? set->second : std::vector<long>(1, number(entries[0])))
-    {
-      const auto position = positions.find(element);
-      if (position == positions.end())
-        throw std::runtime_error("surface '" + name + "' names the absent element " +
-                                 std::to_string(element));
-      surfaces += std::to_string(position->second) + ", " + entries[1] + "\n";
-    }
+      {
+        const auto position = positions.find(element);
+        if (position == positions.end())
+          throw std::runtime_error("surface '" + name + "' names the absent element " +
+                                   std::to_string(element));
+        surfaces += std::to_string(position->second) + ", " + entries[1] + "\n";
+      }
   }
 } // namespace akmon

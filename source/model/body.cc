@@ -47,8 +47,8 @@ namespace akmon
     material = prm.get("Material");
     if (material.empty())
       throw InputError(section, "Material", "(none)", "allowed are the names in Materials/Names");
-    integration = prm.get("Integration") == "full" ? CellIntegration::full
-                                                   : CellIntegration::mean_dilatation;
+    integration = prm.get("Integration") == "full" ? CellIntegration::full :
+                                                     CellIntegration::mean_dilatation;
     refinement  = prm.get_integer("Refinement");
     position    = get_vector(prm, section, "Position");
     velocity    = get_vector(prm, section, "Velocity");

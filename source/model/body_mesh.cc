@@ -22,9 +22,9 @@ namespace akmon
     for (auto &vertex : vertices)
       vertex = moved(vertex);
     for (auto &[id, surface] : curved)
-    {
-      surface.center = moved(surface.center);
-      surface.axis   = rotation * surface.axis;
-    }
+      {
+        surface.center = moved(surface.center);
+        surface.axis   = rotation * surface.axis;
+      }
   }
 } // namespace akmon

@@ -25,20 +25,20 @@ namespace akmon
       double volume = 0.;
       Point<3> moment;
       for (const auto &cell : mesh.cells)
-      {
-        Point<3> centre;
-        std::vector<Point<3>> corners;
-        for (const unsigned int v : cell.vertices)
         {
-          corners.push_back(mesh.vertices[v]);
-          centre += mesh.vertices[v] / 8.;
+          Point<3> centre;
+          std::vector<Point<3>> corners;
+          for (const unsigned int v : cell.vertices)
+            {
+              corners.push_back(mesh.vertices[v]);
+              centre += mesh.vertices[v] / 8.;
+            }
+          const double cell_volume = GridTools::cell_measure<3>(mesh.vertices,
+                                                                ArrayView<const unsigned int>(
+                                                                  cell.vertices));
+          volume += cell_volume;
+          moment += cell_volume * centre;
         }
-        const double cell_volume = GridTools::cell_measure<3>(mesh.vertices,
-                                                              ArrayView<const unsigned int>(
-                                                                cell.vertices));
-        volume += cell_volume;
-        moment += cell_volume * centre;
-      }
       return moment / volume;
     }
 
@@ -75,21 +75,24 @@ namespace akmon
   Discretization::Discretization(const std::vector<Body> &bodies,
                                  const std::vector<Material> &materials,
                                  const MPI_Comm communicator)
-    : triangulation(communicator), fe(FE_Q<3>(1), 3), dof_handler(triangulation), bodies(bodies),
-      materials(materials)
+    : triangulation(communicator)
+    , fe(FE_Q<3>(1), 3)
+    , dof_handler(triangulation)
+    , bodies(bodies)
+    , materials(materials)
   {
     for (const auto &body : bodies)
-    {
-      const auto found = std::find_if(materials.begin(), materials.end(), [&](const Material &m) {
-        return m.name == body.material;
-      });
-      if (found == materials.end())
-        throw InputError("Bodies/" + body.name,
-                         "Material",
-                         body.material,
-                         "there is no material of this name in Materials/Names");
-      body_material.push_back(found - materials.begin());
-    }
+      {
+        const auto found = std::find_if(materials.begin(), materials.end(), [&](const Material &m) {
+          return m.name == body.material;
+        });
+        if (found == materials.end())
+          throw InputError("Bodies/" + body.name,
+                           "Material",
+                           body.material,
+                           "there is no material of this name in Materials/Names");
+        body_material.push_back(found - materials.begin());
+      }
     build_triangulation();
     number_nodes();
     collect_cells();
@@ -108,37 +111,37 @@ namespace akmon
     types::boundary_id next_id = 0;
 
     for (unsigned int b = 0; b < bodies.size(); ++b)
-    {
-      BodyMesh mesh = make_body_mesh(bodies[b].mesh, "Bodies/" + bodies[b].name);
-      mesh.place(bodies[b].rotation, bodies[b].position);
-      centres.push_back(centroid(mesh));
+      {
+        BodyMesh mesh = make_body_mesh(bodies[b].mesh, "Bodies/" + bodies[b].name);
+        mesh.place(bodies[b].rotation, bodies[b].position);
+        centres.push_back(centroid(mesh));
 
-      const unsigned int first_vertex = vertices.size();
-      vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-      for (auto &cell : mesh.cells)
-      {
-        for (auto &v : cell.vertices)
-          v += first_vertex;
-        cell.material_id = b;
-        coarse_cells.push_back(cell);
+        const unsigned int first_vertex = vertices.size();
+        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+        for (auto &cell : mesh.cells)
+          {
+            for (auto &v : cell.vertices)
+              v += first_vertex;
+            cell.material_id = b;
+            coarse_cells.push_back(cell);
+          }
+        types::boundary_id largest = 0;
+        for (auto &face : mesh.faces.boundary_quads)
+          {
+            for (auto &v : face.vertices)
+              v += first_vertex;
+            largest = std::max(largest, face.boundary_id);
+            face.boundary_id += next_id;
+            boundary.boundary_quads.push_back(face);
+          }
+        parts.emplace_back();
+        for (const auto &[name, ids] : mesh.parts)
+          for (const auto id : ids)
+            parts.back()[name].insert(id + next_id);
+        for (const auto &[id, surface] : mesh.curved)
+          curved[id + next_id] = surface;
+        next_id += largest + 1;
       }
-      types::boundary_id largest = 0;
-      for (auto &face : mesh.faces.boundary_quads)
-      {
-        for (auto &v : face.vertices)
-          v += first_vertex;
-        largest = std::max(largest, face.boundary_id);
-        face.boundary_id += next_id;
-        boundary.boundary_quads.push_back(face);
-      }
-      parts.emplace_back();
-      for (const auto &[name, ids] : mesh.parts)
-        for (const auto id : ids)
-          parts.back()[name].insert(id + next_id);
-      for (const auto &[id, surface] : mesh.curved)
-        curved[id + next_id] = surface;
-      next_id += largest + 1;
-    }
 
     triangulation.create_triangulation(vertices, coarse_cells, boundary);
     for (const auto &[id, surface] : curved)
@@ -152,12 +155,12 @@ namespace akmon
     for (const auto &body : bodies)
       deepest = std::max(deepest, body.refinement);
     for (unsigned int level = 0; level < deepest; ++level)
-    {
-      for (const auto &cell : triangulation.active_cell_iterators())
-        if (cell->is_locally_owned() && bodies[cell->material_id()].refinement > level)
-          cell->set_refine_flag();
-      triangulation.execute_coarsening_and_refinement();
-    }
+      {
+        for (const auto &cell : triangulation.active_cell_iterators())
+          if (cell->is_locally_owned() && bodies[cell->material_id()].refinement > level)
+            cell->set_refine_flag();
+        triangulation.execute_coarsening_and_refinement();
+      }
   }
 
 
@@ -200,10 +203,10 @@ namespace akmon
         ids[active->active_cell_index()] = next_id++;
       active->get_dof_indices(dofs);
       if (cell->is_locally_owned() || touches_owned_node(dofs))
-      {
-        relevant.push_back(cell);
-        needed.insert(needed.end(), dofs.begin(), dofs.end());
-      }
+        {
+          relevant.push_back(cell);
+          needed.insert(needed.end(), dofs.begin(), dofs.end());
+        }
     };
     for (const auto tree : triangulation.get_p4est_tree_to_coarse_cell_permutation())
       visit_along_curve(DoFHandler<3>::cell_iterator(&triangulation, 0, tree, &dof_handler),
@@ -226,24 +229,24 @@ namespace akmon
     reference.reinit(partitioner);
     body_of_node.resize(n_nodes);
     for (const auto &cell : relevant)
-    {
-      const DoFHandler<3>::active_cell_iterator active(cell);
-      active->get_dof_indices(dofs);
-      RelevantCell entry{{},
-                         cell->material_id(),
-                         cell->is_locally_owned(),
-                         ids[active->active_cell_index()],
-                         cell};
-      for (unsigned int v = 0; v < 8; ++v)
       {
-        const unsigned int node = partitioner->global_to_local(dofs[3 * v]) / 3;
-        entry.nodes[v]          = node;
-        body_of_node[node]      = entry.body;
-        for (unsigned int d = 0; d < 3; ++d)
-          reference.local_element(3 * node + d) = cell->vertex(v)[d];
+        const DoFHandler<3>::active_cell_iterator active(cell);
+        active->get_dof_indices(dofs);
+        RelevantCell entry{{},
+                           cell->material_id(),
+                           cell->is_locally_owned(),
+                           ids[active->active_cell_index()],
+                           cell};
+        for (unsigned int v = 0; v < 8; ++v)
+          {
+            const unsigned int node = partitioner->global_to_local(dofs[3 * v]) / 3;
+            entry.nodes[v]          = node;
+            body_of_node[node]      = entry.body;
+            for (unsigned int d = 0; d < 3; ++d)
+              reference.local_element(3 * node + d) = cell->vertex(v)[d];
+          }
+        cells.push_back(entry);
       }
-      cells.push_back(entry);
-    }
     std::stable_sort(cells.begin(), cells.end(), [](const RelevantCell &a, const RelevantCell &b) {
       return a.body < b.body;
     });
@@ -256,18 +259,18 @@ namespace akmon
     for (const auto &cell : cells)
       for (unsigned int f = 0; f < 6; ++f)
         if (cell.cell->face(f)->at_boundary())
-        {
-          const auto corners = outward_corners(f);
-          BoundaryFace face{{},
-                            cell.cell->face(f)->boundary_id(),
-                            6 * cell.id + f,
-                            cell.body,
-                            cell.owned,
-                            cell.cell->measure() / cell.cell->face(f)->measure()};
-          for (unsigned int v = 0; v < 4; ++v)
-            face.nodes[v] = cell.nodes[corners[v]];
-          faces.push_back(face);
-        }
+          {
+            const auto corners = outward_corners(f);
+            BoundaryFace face{{},
+                              cell.cell->face(f)->boundary_id(),
+                              6 * cell.id + f,
+                              cell.body,
+                              cell.owned,
+                              cell.cell->measure() / cell.cell->face(f)->measure()};
+            for (unsigned int v = 0; v < 4; ++v)
+              face.nodes[v] = cell.nodes[corners[v]];
+            faces.push_back(face);
+          }
     std::sort(faces.begin(), faces.end(), [](const BoundaryFace &a, const BoundaryFace &b) {
       return a.id < b.id;
     });
@@ -277,9 +280,10 @@ namespace akmon
   void
   Discretization::lump_masses()
   {
-    // Not by FEValues, which takes over the Jacobian of a similar cell before: masses would then depend, in
-    // their last digits, on which cells a rank has.
+    // Not by FEValues, which takes over the Jacobian of a similar cell before: masses would then
+    // depend, in their last digits, on which cells a rank has.
     NodalVector lumped = make_vector();
+    std::string inverted;
     for (const auto &cell : cells)
       {
         double X[8][3], cell_mass[8];
@@ -290,11 +294,14 @@ namespace akmon
         for (unsigned int v = 0; v < 8; ++v)
           {
             if (!(cell_mass[v] > 0.))
-              throw InputError("body '" + bodies[cell.body].name + "': cell " + std::to_string(cell.id) +
-                               " is inverted in the initial mesh");
+              inverted = "body '" + bodies[cell.body].name + "': cell " + std::to_string(cell.id) +
+                         " is inverted in the initial mesh";
             lumped.local_element(3 * cell.nodes[v]) += cell_mass[v];
           }
       }
+    for (const auto &of_rank : Utilities::MPI::all_gather(communicator(), inverted))
+      if (!of_rank.empty())
+        throw InputError(of_rank);
     // Only owned nodes have all their cells here.
     lumped.update_ghost_values();
     mass.resize(n_nodes);
@@ -321,11 +328,11 @@ namespace akmon
   {
     std::string known;
     for (unsigned int b = 0; b < bodies.size(); ++b)
-    {
-      if (bodies[b].name == name)
-        return b;
-      known += (b ? ", " : "") + bodies[b].name;
-    }
+      {
+        if (bodies[b].name == name)
+          return b;
+        known += (b ? ", " : "") + bodies[b].name;
+      }
     throw InputError(section, key, name, "there is no such body; allowed are " + known);
   }
 
@@ -336,12 +343,12 @@ namespace akmon
                                const std::string &part) const
   {
     if (part == "all")
-    {
-      std::set<types::boundary_id> every;
-      for (const auto &of_body : parts)
-        every.insert(of_body.at("all").begin(), of_body.at("all").end());
-      return every;
-    }
+      {
+        std::set<types::boundary_id> every;
+        for (const auto &of_body : parts)
+          every.insert(of_body.at("all").begin(), of_body.at("all").end());
+        return every;
+      }
     if (part == "all")
       {
         std::set<types::boundary_id> every;
@@ -354,15 +361,15 @@ namespace akmon
     const unsigned int body = body_index(section, key, part.substr(0, colon));
     const auto found        = parts[body].find(name);
     if (found == parts[body].end())
-    {
-      std::string known;
-      for (const auto &entry : parts[body])
-        known += (known.empty() ? "" : ", ") + entry.first;
-      throw InputError(section,
-                       key,
-                       part,
-                       "body '" + bodies[body].name + "' has the parts " + known);
-    }
+      {
+        std::string known;
+        for (const auto &entry : parts[body])
+          known += (known.empty() ? "" : ", ") + entry.first;
+        throw InputError(section,
+                         key,
+                         part,
+                         "body '" + bodies[body].name + "' has the parts " + known);
+      }
     return found->second;
   }
 } // namespace akmon

@@ -37,9 +37,9 @@ namespace akmon
   PrescribedMotion::parse(ParameterHandler &prm, const std::string &section)
   {
     const std::string chosen = prm.get("Type");
-    type                     = chosen == "symmetry"   ? Type::symmetry
-                               : chosen == "velocity" ? Type::velocity
-                                                      : Type::displacement;
+    type                     = chosen == "symmetry" ? Type::symmetry :
+                               chosen == "velocity" ? Type::velocity :
+                                                      Type::displacement;
     surfaces                 = split_list(prm.get("Surfaces"));
     if (surfaces.empty())
       throw InputError(section, "Surfaces", "(none)", "allowed are boundary parts BODY:PART");
@@ -51,57 +51,59 @@ namespace akmon
 
   EssentialConditions::EssentialConditions(const Discretization &discretization,
                                            const std::vector<PrescribedMotion> &motions)
-    : discretization(discretization), motions(motions),
-      index_of_node(discretization.n_owned_nodes, numbers::invalid_unsigned_int)
+    : discretization(discretization)
+    , motions(motions)
+    , index_of_node(discretization.n_owned_nodes, numbers::invalid_unsigned_int)
   {
     for (unsigned int m = 0; m < motions.size(); ++m)
       for (const auto &surface : motions[m].surfaces)
-      {
-        const std::string section = "Prescribed motion/" + motions[m].name;
-        const auto faces          = discretization.faces_on(
-          discretization.boundary_ids(section, "Surfaces", surface));
-
-        // The plane's normal is the area-weighted mean normal of all ranks' faces; every face must
-        // agree.
-        Tensor<1, 3> normal_sum;
-        std::vector<Tensor<1, 3>> normals;
-        for (const auto &face : faces)
         {
-          const auto corner = [&](const unsigned int v) {
-            return at_node(discretization.reference, face.nodes[v]);
-          };
-          normals.push_back(0.5 * cross_product_3d(corner(2) - corner(0), corner(3) - corner(1)));
-          if (face.owned)
-            normal_sum += normals.back();
-        }
-        normal_sum = Utilities::MPI::sum(normal_sum, discretization.communicator());
-        bool plane = normal_sum.norm() > 0.;
-        if (plane)
-          normal_sum /= normal_sum.norm();
-        for (const auto &normal : normals)
-          plane = plane && normal * normal_sum > (1. - 1e-6) * normal.norm();
-        if (motions[m].type == PrescribedMotion::Type::symmetry &&
-            Utilities::MPI::min(int(plane), discretization.communicator()) == 0)
-          throw InputError(section,
-                           "Surfaces",
-                           surface,
-                           "a symmetry plane must be a plane surface");
+          const std::string section = "Prescribed motion/" + motions[m].name;
+          const auto faces          = discretization.faces_on(
+            discretization.boundary_ids(section, "Surfaces", surface));
 
-        for (const auto &face : faces)
-          for (const unsigned int node : face.nodes)
-            if (node < discretization.n_owned_nodes)
+          // The plane's normal is the area-weighted mean normal of all ranks' faces; every face
+          // must agree.
+          Tensor<1, 3> normal_sum;
+          std::vector<Tensor<1, 3>> normals;
+          for (const auto &face : faces)
             {
-              if (motions[m].type == PrescribedMotion::Type::symmetry)
-                constrain(node, m, normal_sum);
-              else
-                for (const unsigned int c : motions[m].components)
-                {
-                  Tensor<1, 3> axis;
-                  axis[c] = 1.;
-                  constrain(node, m, axis);
-                }
+              const auto corner = [&](const unsigned int v) {
+                return at_node(discretization.reference, face.nodes[v]);
+              };
+              normals.push_back(0.5 *
+                                cross_product_3d(corner(2) - corner(0), corner(3) - corner(1)));
+              if (face.owned)
+                normal_sum += normals.back();
             }
-      }
+          normal_sum = Utilities::MPI::sum(normal_sum, discretization.communicator());
+          bool plane = normal_sum.norm() > 0.;
+          if (plane)
+            normal_sum /= normal_sum.norm();
+          for (const auto &normal : normals)
+            plane = plane && normal * normal_sum > (1. - 1e-6) * normal.norm();
+          if (motions[m].type == PrescribedMotion::Type::symmetry &&
+              Utilities::MPI::min(int(plane), discretization.communicator()) == 0)
+            throw InputError(section,
+                             "Surfaces",
+                             surface,
+                             "a symmetry plane must be a plane surface");
+
+          for (const auto &face : faces)
+            for (const unsigned int node : face.nodes)
+              if (node < discretization.n_owned_nodes)
+                {
+                  if (motions[m].type == PrescribedMotion::Type::symmetry)
+                    constrain(node, m, normal_sum);
+                  else
+                    for (const unsigned int c : motions[m].components)
+                      {
+                        Tensor<1, 3> axis;
+                        axis[c] = 1.;
+                        constrain(node, m, axis);
+                      }
+                }
+        }
   }
 
 
@@ -113,19 +115,19 @@ namespace akmon
                                  const Tensor<1, 3> &direction)
   {
     if (index_of_node[node] == numbers::invalid_unsigned_int)
-    {
-      index_of_node[node] = nodes.size();
-      nodes.push_back({node, {}, {}});
-    }
+      {
+        index_of_node[node] = nodes.size();
+        nodes.push_back({node, {}, {}});
+      }
     auto &directions = nodes[index_of_node[node]].directions;
     Direction added{direction, {{motion, direction}}};
     for (const auto &existing : directions)
-    {
-      const double overlap = direction * existing.d;
-      added.d -= overlap * existing.d;
-      for (const auto &[k, weight] : existing.terms)
-        added.terms.emplace_back(k, -overlap * weight);
-    }
+      {
+        const double overlap = direction * existing.d;
+        added.d -= overlap * existing.d;
+        for (const auto &[k, weight] : existing.terms)
+          added.terms.emplace_back(k, -overlap * weight);
+      }
     const double length = added.d.norm();
     if (length < 1e-6)
       return;
@@ -146,18 +148,18 @@ namespace akmon
     double sum   = 0.;
     for (const auto &[k, weight] : direction.terms)
       switch (motions[k].type)
-      {
-        case PrescribedMotion::Type::symmetry:
-          sum += weight * (X - x);
-          break;
-        case PrescribedMotion::Type::displacement:
-          sum += weight * (X + motions[k].function.vector(X, state.time + state.dt_next) - x);
-          break;
-        case PrescribedMotion::Type::velocity:
-          sum += weight * motions[k].function.vector(X, state.time + 0.5 * state.dt_next) *
-                 state.dt_next;
-          break;
-      }
+        {
+          case PrescribedMotion::Type::symmetry:
+            sum += weight * (X - x);
+            break;
+          case PrescribedMotion::Type::displacement:
+            sum += weight * (X + motions[k].function.vector(X, state.time + state.dt_next) - x);
+            break;
+          case PrescribedMotion::Type::velocity:
+            sum += weight * motions[k].function.vector(X, state.time + 0.5 * state.dt_next) *
+                   state.dt_next;
+            break;
+        }
     return sum;
   }
 
@@ -166,17 +168,18 @@ namespace akmon
   EssentialConditions::apply(NodalState &state, const double effective_mass_factor)
   {
     for (auto &constrained : nodes)
-    {
-      const unsigned int node = constrained.node;
-      const auto before       = at_node(state.dx_next, node);
-      auto after              = before;
-      for (const auto &direction : constrained.directions)
-        after += (prescribed_increment(direction, state, node) - before * direction.d) *
-                 direction.d;
-      constrained.reaction += discretization.mass[node] * effective_mass_factor * (after - before);
-      for (unsigned int d = 0; d < 3; ++d)
-        state.dx_next.local_element(3 * node + d) = after[d];
-    }
+      {
+        const unsigned int node = constrained.node;
+        const auto before       = at_node(state.dx_next, node);
+        auto after              = before;
+        for (const auto &direction : constrained.directions)
+          after += (prescribed_increment(direction, state, node) - before * direction.d) *
+                   direction.d;
+        constrained.reaction += discretization.mass[node] * effective_mass_factor *
+                                (after - before);
+        for (unsigned int d = 0; d < 3; ++d)
+          state.dx_next.local_element(3 * node + d) = after[d];
+      }
   }
 
 
@@ -213,19 +216,19 @@ namespace akmon
   EssentialConditions::adjust_initial_velocity(NodalVector &velocity) const
   {
     for (const auto &constrained : nodes)
-    {
-      const Point<3> X(at_node(discretization.reference, constrained.node));
-      auto v = at_node(velocity, constrained.node);
-      for (const auto &direction : constrained.directions)
       {
-        double prescribed = 0.;
-        for (const auto &[k, weight] : direction.terms)
-          if (motions[k].type == PrescribedMotion::Type::velocity)
-            prescribed += weight * motions[k].function.vector(X, 0.);
-        v += (prescribed - v * direction.d) * direction.d;
+        const Point<3> X(at_node(discretization.reference, constrained.node));
+        auto v = at_node(velocity, constrained.node);
+        for (const auto &direction : constrained.directions)
+          {
+            double prescribed = 0.;
+            for (const auto &[k, weight] : direction.terms)
+              if (motions[k].type == PrescribedMotion::Type::velocity)
+                prescribed += weight * motions[k].function.vector(X, 0.);
+            v += (prescribed - v * direction.d) * direction.d;
+          }
+        for (unsigned int d = 0; d < 3; ++d)
+          velocity.local_element(3 * constrained.node + d) = v[d];
       }
-      for (unsigned int d = 0; d < 3; ++d)
-        velocity.local_element(3 * constrained.node + d) = v[d];
-    }
   }
 } // namespace akmon

@@ -138,11 +138,11 @@ namespace akmon
       names.push_back("y-");
     // Coordinates in these planes are exact (see OGrid and slices).
     set_boundary_ids(triangulation, [&](const Face &face) {
-      return on_plane(face, 2, 0)        ? 1
-             : on_plane(face, 2, length) ? 2
-             : on_plane(face, 0, 0)      ? 3
-             : on_plane(face, 1, 0)      ? 4
-                                         : 0;
+      return on_plane(face, 2, 0)      ? 1 :
+             on_plane(face, 2, length) ? 2 :
+             on_plane(face, 0, 0)      ? 3 :
+             on_plane(face, 1, 0)      ? 4 :
+                                         0;
     });
     BodyMesh mesh = describe_mesh(triangulation, names);
     mesh.curved.emplace(0, around_z_axis);
@@ -199,19 +199,19 @@ namespace akmon
     std::vector<dealii::CellData<2>> cells;
     for (unsigned int j = 0; j < cells_around; ++j)
       for (unsigned int i = 0; i <= cells_radial; ++i)
-      {
-        const double angle = 2 * dealii::numbers::PI * j / cells_around;
-        const double t     = static_cast<double>(i) / cells_radial;
-        const double r     = (1 - t) * inner_radius + t * outer_radius;
-        vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
-        if (i == cells_radial)
-          continue;
-        const unsigned int here = j * (cells_radial + 1) + i;
-        const unsigned int next = (j + 1) % cells_around * (cells_radial + 1) + i;
-        dealii::CellData<2> cell;
-        cell.vertices = {here, here + 1, next, next + 1};
-        cells.push_back(cell);
-      }
+        {
+          const double angle = 2 * dealii::numbers::PI * j / cells_around;
+          const double t     = static_cast<double>(i) / cells_radial;
+          const double r     = (1 - t) * inner_radius + t * outer_radius;
+          vertices.emplace_back(r * std::cos(angle), r * std::sin(angle));
+          if (i == cells_radial)
+            continue;
+          const unsigned int here = j * (cells_radial + 1) + i;
+          const unsigned int next = (j + 1) % cells_around * (cells_radial + 1) + i;
+          dealii::CellData<2> cell;
+          cell.vertices = {here, here + 1, next, next + 1};
+          cells.push_back(cell);
+        }
     dealii::Triangulation<2> ring;
     ring.create_triangulation(vertices, cells, dealii::SubCellData());
     dealii::Triangulation<3> triangulation;
@@ -221,10 +221,10 @@ namespace akmon
 
     const double middle = 0.5 * (inner_radius + outer_radius);
     set_boundary_ids(triangulation, [&](const Face &face) {
-      return on_plane(face, 2, 0)                                          ? 2
-             : on_plane(face, 2, length)                                   ? 3
-             : std::hypot(face->vertex(0)[0], face->vertex(0)[1]) < middle ? 0
-                                                                           : 1;
+      return on_plane(face, 2, 0)                                        ? 2 :
+             on_plane(face, 2, length)                                   ? 3 :
+             std::hypot(face->vertex(0)[0], face->vertex(0)[1]) < middle ? 0 :
+                                                                           1;
     });
     BodyMesh mesh = describe_mesh(triangulation, {"inner", "outer", "bottom", "top"});
     mesh.curved.emplace(0, around_z_axis);

@@ -27,12 +27,12 @@ namespace akmon
 
       std::vector<bool> matches;
       for (const auto &face : mesh.faces.boundary_quads)
-      {
-        center = dealii::Point<3>();
-        for (const unsigned int v : face.vertices)
-          center += 0.25 * mesh.vertices[v];
-        matches.push_back(parser.Eval() != 0);
-      }
+        {
+          center = dealii::Point<3>();
+          for (const unsigned int v : face.vertices)
+            center += 0.25 * mesh.vertices[v];
+          matches.push_back(parser.Eval() != 0);
+        }
       return matches;
     }
 
@@ -55,22 +55,22 @@ namespace akmon
 
       std::set<dealii::types::boundary_id> ids;
       for (const auto id : matched_ids)
-      {
-        if (other_ids.count(id) == 0)
         {
-          ids.insert(id);
-          continue;
+          if (other_ids.count(id) == 0)
+            {
+              ids.insert(id);
+              continue;
+            }
+          for (unsigned int f = 0; f < faces.size(); ++f)
+            if (matches[f] && faces[f].boundary_id == id)
+              faces[f].boundary_id = next_id;
+          for (auto &[name, part] : mesh.parts)
+            if (part.count(id) == 1)
+              part.insert(next_id);
+          if (const auto surface = mesh.curved.find(id); surface != mesh.curved.end())
+            mesh.curved.emplace(next_id, surface->second);
+          ids.insert(next_id++);
         }
-        for (unsigned int f = 0; f < faces.size(); ++f)
-          if (matches[f] && faces[f].boundary_id == id)
-            faces[f].boundary_id = next_id;
-        for (auto &[name, part] : mesh.parts)
-          if (part.count(id) == 1)
-            part.insert(next_id);
-        if (const auto surface = mesh.curved.find(id); surface != mesh.curved.end())
-          mesh.curved.emplace(next_id, surface->second);
-        ids.insert(next_id++);
-      }
       return ids;
     }
   } // namespace
@@ -84,21 +84,21 @@ namespace akmon
              mesh.cells,
              std::ignore) = dealii::GridTools::get_coarse_mesh_description(triangulation);
     for (auto &cell : mesh.cells)
-    {
-      cell.material_id = 0;
-      cell.manifold_id = dealii::numbers::flat_manifold_id;
-    }
+      {
+        cell.material_id = 0;
+        cell.manifold_id = dealii::numbers::flat_manifold_id;
+      }
 
     for (const auto &cell : triangulation.active_cell_iterators())
       for (const auto &face : cell->face_iterators())
         if (face->at_boundary())
-        {
-          dealii::CellData<2> data;
-          for (const unsigned int v : face->vertex_indices())
-            data.vertices[v] = face->vertex_index(v);
-          data.boundary_id = face->boundary_id();
-          mesh.faces.boundary_quads.push_back(data);
-        }
+          {
+            dealii::CellData<2> data;
+            for (const unsigned int v : face->vertex_indices())
+              data.vertices[v] = face->vertex_index(v);
+            data.boundary_id = face->boundary_id();
+            mesh.faces.boundary_quads.push_back(data);
+          }
     return mesh;
   }
 
@@ -118,27 +118,30 @@ namespace akmon
   add_named_parts(BodyMesh &mesh, const std::string &list, const std::string &section)
   {
     for (const auto &entry : split_list(list, ';'))
-    {
-      const auto colon       = entry.find(':');
-      const std::string name = dealii::Utilities::trim(entry.substr(0, colon));
-      if (colon == std::string::npos || name.empty() || name.find(',') != std::string::npos)
-        throw InputError(section, key, entry, "allowed is 'name: condition', no comma in the name");
-      if (name == "all" || mesh.parts.count(name) == 1)
-        throw InputError(section, key, entry, "the name '" + name + "' is taken already");
+      {
+        const auto colon       = entry.find(':');
+        const std::string name = dealii::Utilities::trim(entry.substr(0, colon));
+        if (colon == std::string::npos || name.empty() || name.find(',') != std::string::npos)
+          throw InputError(section,
+                           key,
+                           entry,
+                           "allowed is 'name: condition', no comma in the name");
+        if (name == "all" || mesh.parts.count(name) == 1)
+          throw InputError(section, key, entry, "the name '" + name + "' is taken already");
 
-      std::vector<bool> matches;
-      try
-      {
-        matches = faces_where(mesh, entry.substr(colon + 1));
+        std::vector<bool> matches;
+        try
+          {
+            matches = faces_where(mesh, entry.substr(colon + 1));
+          }
+        catch (const mu::Parser::exception_type &error)
+          {
+            throw InputError(section, key, entry, "cannot read the condition: " + error.GetMsg());
+          }
+        const auto ids = separate(mesh, matches);
+        if (ids.empty())
+          throw InputError(section, key, entry, "no boundary face has its centre there");
+        mesh.parts[name] = ids;
       }
-      catch (const mu::Parser::exception_type &error)
-      {
-        throw InputError(section, key, entry, "cannot read the condition: " + error.GetMsg());
-      }
-      const auto ids = separate(mesh, matches);
-      if (ids.empty())
-        throw InputError(section, key, entry, "no boundary face has its centre there");
-      mesh.parts[name] = ids;
-    }
   }
 } // namespace akmon

@@ -44,7 +44,8 @@ namespace akmon
     class CapturedErrors
     {
     public:
-      CapturedErrors() : previous(std::cerr.rdbuf(captured.rdbuf()))
+      CapturedErrors()
+        : previous(std::cerr.rdbuf(captured.rdbuf()))
       {
       }
 
@@ -76,11 +77,11 @@ namespace akmon
       std::istringstream stream(at == std::string::npos ? text : text.substr(at + heading.size()));
       std::string word, line;
       while (stream >> word && word != "Stacktrace:")
-      {
-        line += (line.empty() ? "" : " ") + word;
-        if (word.back() == '.')
-          break;
-      }
+        {
+          line += (line.empty() ? "" : " ") + word;
+          if (word.back() == '.')
+            break;
+        }
       return line;
     }
 
@@ -155,10 +156,10 @@ namespace akmon
         throw Unusable{"the mesh has no cells"};
       std::size_t n_tetrahedra = 0, n_others = 0;
       for (const auto &cell : triangulation.active_cell_iterators())
-      {
-        n_tetrahedra += cell->reference_cell() == dealii::ReferenceCells::Tetrahedron;
-        n_others += cell->reference_cell() != dealii::ReferenceCells::Hexahedron;
-      }
+        {
+          n_tetrahedra += cell->reference_cell() == dealii::ReferenceCells::Tetrahedron;
+          n_others += cell->reference_cell() != dealii::ReferenceCells::Hexahedron;
+        }
       if (n_tetrahedra > 0)
         throw Unusable{not_hexahedra(n_tetrahedra, "tetrahedra")};
       if (n_others > 0)
@@ -174,20 +175,19 @@ namespace akmon
       const dealii::QGauss<3> gauss(2);
       for (const auto &cell : triangulation.active_cell_iterators())
         for (const auto &xi : gauss.get_points())
-        {
-          dealii::Tensor<2, 3> jacobian;
-          for (const unsigned int v : cell->vertex_indices())
-            jacobian += outer_product(cell->vertex(v),
-                                      dealii::GeometryInfo<3>::d_linear_shape_function_gradient(xi,
-                                                                                                v));
-          if (!(determinant(jacobian) > 0))
           {
-            std::ostringstream message;
-            message << "cell " << cell->index() + 1 << " with its center at (" << cell->center()
-                    << ") is folded or has no volume";
-            throw Unusable{message.str()};
+            dealii::Tensor<2, 3> jacobian;
+            for (const unsigned int v : cell->vertex_indices())
+              jacobian += outer_product(
+                cell->vertex(v), dealii::GeometryInfo<3>::d_linear_shape_function_gradient(xi, v));
+            if (!(determinant(jacobian) > 0))
+              {
+                std::ostringstream message;
+                message << "cell " << cell->index() + 1 << " with its center at (" << cell->center()
+                        << ") is folded or has no volume";
+                throw Unusable{message.str()};
+              }
           }
-        }
     }
   } // namespace
 
@@ -229,26 +229,26 @@ namespace akmon
     // GridIn::read_abaqus prints the exception that tells the cause and throws one that does not.
     const CapturedErrors captured;
     try
-    {
-      read(name, triangulation);
-      check_cell_types(triangulation);
-      check_jacobians(triangulation);
-    }
+      {
+        read(name, triangulation);
+        check_cell_types(triangulation);
+        check_jacobians(triangulation);
+      }
     catch (const Unusable &unusable)
-    {
-      throw error(unusable.reason);
-    }
+      {
+        throw error(unusable.reason);
+      }
     catch (const dealii::ExceptionBase &exception)
-    {
-      std::ostringstream info;
-      exception.print_info(info);
-      throw error("not a readable mesh: " +
-                  first_sentence(captured.text().empty() ? info.str() : captured.text()));
-    }
+      {
+        std::ostringstream info;
+        exception.print_info(info);
+        throw error("not a readable mesh: " +
+                    first_sentence(captured.text().empty() ? info.str() : captured.text()));
+      }
     catch (const std::exception &exception)
-    {
-      throw error("not a readable mesh: " + first_sentence(exception.what()));
-    }
+      {
+        throw error("not a readable mesh: " + first_sentence(exception.what()));
+      }
 
     dealii::GridTools::scale(scale, triangulation);
     BodyMesh mesh = describe_mesh(triangulation);

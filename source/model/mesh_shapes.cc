@@ -43,11 +43,11 @@ namespace akmon
     if (texts.size() != 3)
       throw InputError(section, "Cells", prm.get("Cells"), "allowed are three whole numbers");
     for (unsigned int d = 0; d < 3; ++d)
-    {
-      if (!(size[d] > 0))
-        throw InputError(section, "Size", prm.get("Size"), "allowed are three numbers above 0");
-      cells[d] = dealii::Utilities::string_to_int(texts[d]);
-    }
+      {
+        if (!(size[d] > 0))
+          throw InputError(section, "Size", prm.get("Size"), "allowed are three numbers above 0");
+        cells[d] = dealii::Utilities::string_to_int(texts[d]);
+      }
   }
 
 

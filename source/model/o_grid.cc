@@ -23,7 +23,9 @@ namespace akmon
 
   template <int dim>
   OGrid<dim>::OGrid(const double radius, const unsigned int n_across, const unsigned int n_layers)
-    : radius(radius), n_across(n_across), n_layers(n_layers)
+    : radius(radius)
+    , n_across(n_across)
+    , n_layers(n_layers)
   {
     // Cells of the core as wide as the layers are thick, as long as neither core nor layers
     // degenerate.
@@ -50,23 +52,23 @@ namespace akmon
         return;
       dealii::CellData<dim> cell;
       for (unsigned int v = 0; v < nodes.size(); ++v)
-      {
-        const auto [entry, is_new] = numbers.try_emplace(nodes[v], vertices.size());
-        if (is_new)
-          vertices.push_back(position(nodes[v]));
-        cell.vertices[v] = entry->second;
-      }
+        {
+          const auto [entry, is_new] = numbers.try_emplace(nodes[v], vertices.size());
+          if (is_new)
+            vertices.push_back(position(nodes[v]));
+          cell.vertices[v] = entry->second;
+        }
       cells.push_back(cell);
     };
 
     const unsigned int n_core = static_cast<unsigned int>(std::lround(std::pow(n_across, dim)));
     for (unsigned int c = 0; c < n_core; ++c)
-    {
-      std::array<unsigned int, dim> base;
-      for (unsigned int d = 0, rest = c; d < dim; ++d, rest /= n_across)
-        base[d] = rest % n_across;
-      visit_cells_from(base, add_cell);
-    }
+      {
+        std::array<unsigned int, dim> base;
+        for (unsigned int d = 0, rest = c; d < dim; ++d, rest /= n_across)
+          base[d] = rest % n_across;
+        visit_cells_from(base, add_cell);
+      }
     dealii::GridTools::consistently_order_cells(cells);
     triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
   }
@@ -79,28 +81,28 @@ namespace akmon
   {
     CellNodes core;
     for (unsigned int v = 0; v < core.size(); ++v)
-    {
-      core[v] = {base, 0};
-      for (unsigned int d = 0; d < dim; ++d)
-        core[v].index[d] += (v >> d) & 1;
-    }
+      {
+        core[v] = {base, 0};
+        for (unsigned int d = 0; d < dim; ++d)
+          core[v].index[d] += (v >> d) & 1;
+      }
     visit(core);
 
     for (unsigned int d = 0; d < dim; ++d)
       for (const unsigned int side : {0u, 1u})
         if (base[d] == (side == 0 ? 0 : n_across - 1))
           for (unsigned int layer = 0; layer < n_layers; ++layer)
-          {
-            // Both sheets of nodes continue the face of the core. On the lower side the outer sheet
-            // is the first one in direction d, so that the cell is not turned inside out.
-            CellNodes nodes = core;
-            for (unsigned int v = 0; v < nodes.size(); ++v)
             {
-              nodes[v].index[d] = base[d] + side;
-              nodes[v].layer    = layer + (((v >> d) & 1) == side ? 1 : 0);
+              // Both sheets of nodes continue the face of the core. On the lower side the outer
+              // sheet is the first one in direction d, so that the cell is not turned inside out.
+              CellNodes nodes = core;
+              for (unsigned int v = 0; v < nodes.size(); ++v)
+                {
+                  nodes[v].index[d] = base[d] + side;
+                  nodes[v].layer    = layer + (((v >> d) & 1) == side ? 1 : 0);
+                }
+              visit(nodes);
             }
-            visit(nodes);
-          }
   }
 
 
@@ -112,10 +114,10 @@ namespace akmon
     dealii::Point<dim> cube;
     double shell = 0;
     for (unsigned int d = 0; d < dim; ++d)
-    {
-      cube[d] = (2. * node.index[d] - n_across) / n_across;
-      shell   = std::max(shell, std::abs(cube[d]));
-    }
+      {
+        cube[d] = (2. * node.index[d] - n_across) / n_across;
+        shell   = std::max(shell, std::abs(cube[d]));
+      }
     if (shell == 0)
       return cube;
 

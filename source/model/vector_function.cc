@@ -31,19 +31,19 @@ namespace akmon
       throw InputError(section,
                        key,
                        expression,
-                       n_components == 1 ? "allowed is one expression"
-                                         : "allowed are three expressions separated by semicolons");
+                       n_components == 1 ? "allowed is one expression" :
+                                           "allowed are three expressions separated by semicolons");
     function = std::make_shared<dealii::FunctionParser<3>>(n_components);
     try
-    {
-      function->initialize("x,y,z,t", expression, {{"pi", dealii::numbers::PI}}, true);
-      for (unsigned int c = 0; c < n_components; ++c)
-        function->value(dealii::Point<3>(), c);
-    }
+      {
+        function->initialize("x,y,z,t", expression, {{"pi", dealii::numbers::PI}}, true);
+        for (unsigned int c = 0; c < n_components; ++c)
+          function->value(dealii::Point<3>(), c);
+      }
     catch (const std::exception &)
-    {
-      throw InputError(section, key, expression, "cannot be read as a function of x, y, z, t");
-    }
+      {
+        throw InputError(section, key, expression, "cannot be read as a function of x, y, z, t");
+      }
     depends_on_position = std::regex_search(expression, std::regex("\\b[xyz]\\b"));
     zero                = true;
     for (const auto &component : components)

@@ -76,16 +76,16 @@ namespace akmon
   prepare_output_directory(const std::string &path, const MPI_Comm comm)
   {
     try
-    {
-      run_on_root(comm, [&path]() {
-        create_writable(path);
-        remove_old_results(path);
-      });
-    }
+      {
+        run_on_root(comm, [&path]() {
+          create_writable(path);
+          remove_old_results(path);
+        });
+      }
     catch (const std::runtime_error &failure)
-    {
-      throw InputError("output directory '" + path + "' cannot be written: " + failure.what());
-    }
+      {
+        throw InputError("output directory '" + path + "' cannot be written: " + failure.what());
+      }
   }
 
 
@@ -95,13 +95,13 @@ namespace akmon
     std::string failure;
     if (dealii::Utilities::MPI::this_mpi_process(comm) == 0)
       try
-      {
-        task();
-      }
+        {
+          task();
+        }
       catch (const std::exception &exception)
-      {
-        failure = exception.what();
-      }
+        {
+          failure = exception.what();
+        }
     failure = dealii::Utilities::MPI::broadcast(comm, failure, 0);
     if (!failure.empty())
       throw std::runtime_error(failure);

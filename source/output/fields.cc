@@ -19,7 +19,8 @@ namespace akmon
     {
     public:
       explicit StressField(const std::vector<Symmetric3<double>> &stresses)
-        : DataPostprocessorTensor<3>("cauchy_stress", update_values), stresses(stresses)
+        : DataPostprocessorTensor<3>("cauchy_stress", update_values)
+        , stresses(stresses)
       {
       }
 
@@ -29,12 +30,13 @@ namespace akmon
       {
         const auto &s = stresses[inputs.get_cell<3>()->active_cell_index()];
         for (auto &values : computed)
-        {
-          const double full[3][3] = {{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}};
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = 0; j < 3; ++j)
-              values[Tensor<2, 3>::component_to_unrolled_index(TableIndices<2>(i, j))] = full[i][j];
-        }
+          {
+            const double full[3][3] = {{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}};
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+                values[Tensor<2, 3>::component_to_unrolled_index(TableIndices<2>(i, j))] = full[i]
+                                                                                               [j];
+          }
       }
 
     private:
@@ -54,13 +56,13 @@ namespace akmon
     CellAverage average{{{0., 0., 0., 0., 0., 0.}}, 0.};
     const double *const state = batches.state_at(cell_of_body / n_lanes) + cell_of_body % n_lanes;
     for (unsigned int q = 0; q < CellBatches::n_points; ++q)
-    {
-      const double *const point = state + std::size_t(q) * batches.n_components * n_lanes;
-      for (unsigned int c = 0; c < 6; ++c)
-        average.stress[c] += point[c * n_lanes] / CellBatches::n_points;
-      if (batches.n_components > 6)
-        average.plastic_strain += point[6 * n_lanes] / CellBatches::n_points;
-    }
+      {
+        const double *const point = state + std::size_t(q) * batches.n_components * n_lanes;
+        for (unsigned int c = 0; c < 6; ++c)
+          average.stress[c] += point[c * n_lanes] / CellBatches::n_points;
+        if (batches.n_components > 6)
+          average.plastic_strain += point[6 * n_lanes] / CellBatches::n_points;
+      }
     return average;
   }
 
@@ -71,9 +73,13 @@ namespace akmon
                  const Contact &contact,
                  const Fidcd &integrator,
                  const bool deformed)
-    : directory(directory), discretization(discretization), internal_forces(internal_forces),
-      contact(contact), integrator(integrator), deformed(deformed),
-      series(directory + "/fields.pvd", discretization.communicator())
+    : directory(directory)
+    , discretization(discretization)
+    , internal_forces(internal_forces)
+    , contact(contact)
+    , integrator(integrator)
+    , deformed(deformed)
+    , series(directory + "/fields.pvd", discretization.communicator())
   {
   }
 
@@ -95,16 +101,16 @@ namespace akmon
     Vector<float> von_mises(n), plastic_strain(n), body(n), rank(n);
     for (const auto &batches : internal_forces.batches())
       for (std::size_t c = 0; c < batches.n_cells; ++c)
-      {
-        const auto &relevant = discretization.cells[batches.first_cell + c];
-        const auto i = DoFHandler<3>::active_cell_iterator(relevant.cell)->active_cell_index();
-        const auto average = average_over_cell(batches, c);
-        stresses[i]        = average.stress;
-        von_mises[i]       = std::sqrt(equivalent_stress_squared(average.stress));
-        plastic_strain[i]  = average.plastic_strain;
-        body[i]            = relevant.body;
-        rank[i]            = relevant.cell->subdomain_id();
-      }
+        {
+          const auto &relevant = discretization.cells[batches.first_cell + c];
+          const auto i = DoFHandler<3>::active_cell_iterator(relevant.cell)->active_cell_index();
+          const auto average = average_over_cell(batches, c);
+          stresses[i]        = average.stress;
+          von_mises[i]       = std::sqrt(equivalent_stress_squared(average.stress));
+          plastic_strain[i]  = average.plastic_strain;
+          body[i]            = relevant.body;
+          rank[i]            = relevant.cell->subdomain_id();
+        }
 
     const StressField stress_field(stresses);
     DataOut<3> data_out;
@@ -151,11 +157,11 @@ namespace akmon
   {
     NodalVector velocity = discretization.make_vector();
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
-    {
-      const auto v = integrator.velocity(node);
-      for (unsigned int d = 0; d < 3; ++d)
-        velocity.local_element(3 * node + d) = v[d];
-    }
+      {
+        const auto v = integrator.velocity(node);
+        for (unsigned int d = 0; d < 3; ++d)
+          velocity.local_element(3 * node + d) = v[d];
+      }
     return velocity;
   }
 
@@ -166,13 +172,13 @@ namespace akmon
   {
     std::vector<double> areas(discretization.n_nodes, 0.);
     for (const auto &face : contact.contact_faces())
-    {
-      Segment corners;
-      for (unsigned int k = 0; k < 4; ++k)
-        corners[k] = at_node(state.x, face.nodes[k]);
-      for (const unsigned int node : face.nodes)
-        areas[node] += 0.25 * area_vector(corners).norm();
-    }
+      {
+        Segment corners;
+        for (unsigned int k = 0; k < 4; ++k)
+          corners[k] = at_node(state.x, face.nodes[k]);
+        for (const unsigned int node : face.nodes)
+          areas[node] += 0.25 * area_vector(corners).norm();
+      }
     return areas;
   }
 
@@ -187,13 +193,13 @@ namespace akmon
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
       scalars.local_element(3 * node + 1) = std::numeric_limits<double>::quiet_NaN();
     for (const auto &pair : contact.get_pairs())
-    {
-      double &gap = scalars.local_element(3 * pair.slave + 1);
-      if (!(gap < pair.gap))
-        gap = pair.gap;
-      if (pair.normal_force > 0.)
-        scalars.local_element(3 * pair.slave + 2) = pair.sticks ? 2. : 1.;
-    }
+      {
+        double &gap = scalars.local_element(3 * pair.slave + 1);
+        if (!(gap < pair.gap))
+          gap = pair.gap;
+        if (pair.normal_force > 0.)
+          scalars.local_element(3 * pair.slave + 2) = pair.sticks ? 2. : 1.;
+      }
     return scalars;
   }
 

@@ -30,7 +30,9 @@ namespace akmon
   }
 
 
-  History::History(const std::string &path, const MPI_Comm comm) : path(path), comm(comm)
+  History::History(const std::string &path, const MPI_Comm comm)
+    : path(path)
+    , comm(comm)
   {
   }
 
@@ -60,13 +62,13 @@ namespace akmon
                              std::to_string(columns.size()) + " columns");
     run_on_root(comm, [&]() {
       if (!header_written)
-      {
-        std::string header;
-        for (const auto &name : columns)
-          append(header, name);
-        file.reset(std::fopen(path.c_str(), "wb"));
-        write_line(header);
-      }
+        {
+          std::string header;
+          for (const auto &name : columns)
+            append(header, name);
+          file.reset(std::fopen(path.c_str(), "wb"));
+          write_line(header);
+        }
       std::string row;
       for (const double value : values)
         append(row, shortest_text(value));

@@ -10,16 +10,18 @@ namespace akmon
   using namespace dealii;
 
   Monitor::Monitor(const Case &parameters, const Watched &watched)
-    : parameters(parameters), watched(watched), field_tick(parameters.output.fields),
-      history_tick(parameters.output.history),
-      history(parameters.output_directory + "/history.csv", watched.discretization.communicator()),
-      fields(parameters.output_directory,
+    : parameters(parameters)
+    , watched(watched)
+    , field_tick(parameters.output.fields)
+    , history_tick(parameters.output.history)
+    , history(parameters.output_directory + "/history.csv", watched.discretization.communicator())
+    , fields(parameters.output_directory,
              watched.discretization,
              watched.internal_forces,
              watched.contact,
              watched.integrator,
-             parameters.output.deformed),
-      probes(parameters.probes, watched.discretization, watched.internal_forces, watched.integrator)
+             parameters.output.deformed)
+    , probes(parameters.probes, watched.discretization, watched.internal_forces, watched.integrator)
   {
     history.add_columns({"time",
                          "dt",
@@ -61,10 +63,10 @@ namespace akmon
     const bool fields_due  = field_tick.due(watched.state.time, watched.state.step);
     const bool history_due = history_tick.due(watched.state.time, watched.state.step);
     if (history_due || last || watched.state.step == 0)
-    {
-      sum_energies();
-      write_row();
-    }
+      {
+        sum_energies();
+        write_row();
+      }
     if (fields_due || last || watched.state.step == 0)
       write_fields();
     if (history_due || last)
@@ -127,8 +129,8 @@ namespace akmon
     if (watched.state.step == 0)
       initial_energy = balance.sum();
     largest_energy = std::max({largest_energy, balance.kinetic, std::abs(balance.external_work)});
-    const double error = largest_energy > 0. ? (balance.sum() - initial_energy) / largest_energy
-                                             : 0.;
+    const double error = largest_energy > 0. ? (balance.sum() - initial_energy) / largest_energy :
+                                               0.;
     if (!(std::abs(error) <= std::abs(worst.energy_error)))
       worst.energy_error = error;
   }
@@ -140,11 +142,11 @@ namespace akmon
   {
     Tensor<1, 3> linear, angular;
     for (unsigned int node = 0; node < watched.discretization.n_owned_nodes; ++node)
-    {
-      const auto momentum = watched.discretization.mass[node] * watched.integrator.velocity(node);
-      linear += momentum;
-      angular += cross_product_3d(at_node(watched.state.x, node), momentum);
-    }
+      {
+        const auto momentum = watched.discretization.mass[node] * watched.integrator.velocity(node);
+        linear += momentum;
+        angular += cross_product_3d(at_node(watched.state.x, node), momentum);
+      }
     linear  = Utilities::MPI::sum(linear, watched.discretization.communicator());
     angular = Utilities::MPI::sum(angular, watched.discretization.communicator());
     return {linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]};
@@ -155,8 +157,8 @@ namespace akmon
   Monitor::write_row()
   {
     const MPI_Comm communicator = watched.discretization.communicator();
-    const double error = largest_energy > 0. ? (balance.sum() - initial_energy) / largest_energy
-                                             : 0.;
+    const double error = largest_energy > 0. ? (balance.sum() - initial_energy) / largest_energy :
+                                               0.;
     std::vector<double> row = {watched.state.time,
                                watched.state.dt_next,
                                balance.kinetic,

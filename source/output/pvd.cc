@@ -7,7 +7,9 @@
 
 namespace akmon
 {
-  PvdSeries::PvdSeries(const std::string &path, const MPI_Comm comm) : path(path), comm(comm)
+  PvdSeries::PvdSeries(const std::string &path, const MPI_Comm comm)
+    : path(path)
+    , comm(comm)
   {
   }
 

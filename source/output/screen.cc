@@ -78,8 +78,10 @@ namespace akmon
 
 
   Screen::Screen(const MPI_Comm comm, const bool quiet, std::ostream &out, const bool terminal)
-    : out(out), root(dealii::Utilities::MPI::this_mpi_process(comm) == 0), quiet(quiet),
-      terminal(terminal)
+    : out(out)
+    , root(dealii::Utilities::MPI::this_mpi_process(comm) == 0)
+    , quiet(quiet)
+    , terminal(terminal)
   {
   }
 
@@ -125,18 +127,18 @@ namespace akmon
   {
     const bool first = !started;
     if (first)
-    {
-      started    = true;
-      first_time = state.time;
-      first_wall = now;
-    }
+      {
+        started    = true;
+        first_time = state.time;
+        first_wall = now;
+      }
     if (terminal)
-    {
-      if (!first && now - last_refresh < refresh_interval && state.time < state.end)
-        return false;
-      last_refresh = now;
-      return true;
-    }
+      {
+        if (!first && now - last_refresh < refresh_interval && state.time < state.end)
+          return false;
+        last_refresh = now;
+        return true;
+      }
     // A sum of steps may miss the exact tenth by rounding.
     const auto tenth = static_cast<unsigned int>(10. * fraction_done(state) + 1e-9);
     if (tenth <= last_tenth)

@@ -13,10 +13,10 @@ namespace akmon
     });
     const auto index = static_cast<std::size_t>(known - records.begin());
     if (known == records.end())
-    {
-      records.emplace_back();
-      records.back().name = name;
-    }
+      {
+        records.emplace_back();
+        records.back().name = name;
+      }
     return Stage(*this, index);
   }
 
@@ -37,11 +37,11 @@ namespace akmon
     std::vector<unsigned long> calls;
     std::vector<unsigned int> first_use;
     for (const auto &record : records)
-    {
-      seconds.push_back(std::chrono::duration<double>(record.duration).count());
-      calls.push_back(record.calls);
-      first_use.push_back(record.first_use == 0 ? unused : record.first_use);
-    }
+      {
+        seconds.push_back(std::chrono::duration<double>(record.duration).count());
+        calls.push_back(record.calls);
+        first_use.push_back(record.first_use == 0 ? unused : record.first_use);
+      }
     dealii::Utilities::MPI::max(seconds, comm, seconds);
     dealii::Utilities::MPI::max(calls, comm, calls);
     dealii::Utilities::MPI::min(first_use, comm, first_use);

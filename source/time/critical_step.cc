@@ -20,23 +20,23 @@ namespace akmon
       Symmetric3<N> strain[n_points];
       N volume(0.), dilatation(0.);
       for (unsigned int q = 0; q < n_points; ++q)
-      {
-        const Matrix3<N> J         = positions.at(q);
-        const Matrix3<N> cofactors = cofactor(J);
-        const N j                  = determinant(J, cofactors);
-        strain[q] = symmetric_part(times_inverse(gradients.at(q), cofactors, N(1. / j)));
-        volume += j;
-        dilatation += j * trace(strain[q]);
-      }
+        {
+          const Matrix3<N> J         = positions.at(q);
+          const Matrix3<N> cofactors = cofactor(J);
+          const N j                  = determinant(J, cofactors);
+          strain[q] = symmetric_part(times_inverse(gradients.at(q), cofactors, N(1. / j)));
+          volume += j;
+          dilatation += j * trace(strain[q]);
+        }
       TrilinearGradients<N> weights;
       weights.clear();
       const N mean = dilatation / volume;
       for (unsigned int q = 0; q < n_points; ++q)
-      {
-        if (integration == CellIntegration::mean_dilatation)
-          strain[q] = add_to_diagonal(strain[q], N((mean - trace(strain[q])) * (1. / 3.)));
-        weights.add(q, elasticity.stress(strain[q]) * cofactor(positions.at(q)));
-      }
+        {
+          if (integration == CellIntegration::mean_dilatation)
+            strain[q] = add_to_diagonal(strain[q], N((mean - trace(strain[q])) * (1. / 3.)));
+          weights.add(q, elasticity.stress(strain[q]) * cofactor(positions.at(q)));
+        }
       // With the mean dilatation in the strain, the pressure part 3 K mean I is constant over the
       // cell and its weights integrate to the mean divergence: no further averaging is needed.
       weights.integrate(f);
@@ -55,8 +55,8 @@ namespace akmon
     }
 
 
-    // Start vector of the iteration: stretch along each reference direction, plus a part of every other
-    // pattern so that no eigenvector is missed by symmetry.
+    // Start vector of the iteration: stretch along each reference direction, plus a part of every
+    // other pattern so that no eigenvector is missed by symmetry.
     template <typename N>
     void
     start_vector(const Matrix3<N> &jacobian, N (&u)[8][3])
@@ -77,8 +77,9 @@ namespace akmon
     }
 
 
-    // Largest eigenvalue of the symmetric tridiagonal matrix with diagonal a and squared off-diagonal b2,
-    // by bisection from above: x exceeds it if and only if all pivots of x I - T are positive.
+    // Largest eigenvalue of the symmetric tridiagonal matrix with diagonal a and squared
+    // off-diagonal b2, by bisection from above: x exceeds it if and only if all pivots of x I - T
+    // are positive.
     template <typename N, std::size_t n>
     N
     largest_tridiagonal_eigenvalue(const N (&a)[n], const N (&b2)[n])
@@ -88,14 +89,14 @@ namespace akmon
       N lower = a[0], upper(0.);
       for (unsigned int j = 0; j < n; ++j)
         {
-          lower         = maximum(lower, a[j]);
+          lower          = maximum(lower, a[j]);
           const N radius = square_root(b2[j]) + (j > 0 ? square_root(b2[j - 1]) : N(0.));
-          upper         = maximum(upper, N(a[j] + radius));
+          upper          = maximum(upper, N(a[j] + radius));
         }
       for (unsigned int bisection = 0; bisection < n_bisections; ++bisection)
         {
           const N x = 0.5 * (lower + upper);
-          N       pivot = x - a[0], least = pivot;
+          N pivot = x - a[0], least = pivot;
           for (unsigned int j = 1; j < n; ++j)
             {
               pivot = x - a[j] - b2[j - 1] / pivot;
@@ -114,16 +115,17 @@ namespace akmon
   N
   largest_eigenvalue(const N (&x)[8][3],
                      const N (&mass)[8],
-                     const Elasticity &    elasticity,
+                     const Elasticity &elasticity,
                      const CellIntegration integration)
   {
-      // The cell has 18 strain modes; this many steps find the largest eigenvalue to a few parts in 1000 in
+    // The cell has 18 strain modes; this many steps find the largest eigenvalue to a few parts in
+    // 1000 in
     // the worst of the tested shapes. The margin covers that.
     constexpr unsigned int n_steps = 14;
-    constexpr double       margin  = 1.004;
+    constexpr double margin        = 1.004;
 
     const auto positions = TrilinearGradients<N>::evaluate(x);
-    N          v[8][3], v_before[8][3], w[8][3], a[n_steps], b2[n_steps];
+    N v[8][3], v_before[8][3], w[8][3], a[n_steps], b2[n_steps];
     start_vector(positions.at_centre(), v);
     N scale = 1. / square_root(mass_product(mass, v, v));
     for (unsigned int node = 0; node < 8; ++node)
@@ -146,7 +148,8 @@ namespace akmon
             w[node][c] -= a[j] * v[node][c];
         b2[j] = mass_product(mass, w, w);
         b     = square_root(b2[j]);
-        // Where the vectors span an invariant space what is left is rounding; it must not be scaled up.
+        // Where the vectors span an invariant space what is left is rounding; it must not be scaled
+        // up.
         const auto left = b > 1e-5 * a[0];
         b2[j]           = select(left, b2[j], N(0.));
         scale           = select(left, N(1. / b), N(0.));

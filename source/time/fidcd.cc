@@ -3,7 +3,9 @@
 namespace akmon
 {
   Fidcd::Fidcd(const Discretization &discretization, NodalState &state, const double damping)
-    : discretization(discretization), state(state), damping(damping)
+    : discretization(discretization)
+    , state(state)
+    , damping(damping)
   {
   }
 
@@ -16,12 +18,12 @@ namespace akmon
     mass_factor              = 2. / (dt * dt);
     const double carry       = dt * (1. - 0.5 * damping * dt);
     for (unsigned int node = 0, i = 0; node < discretization.n_owned_nodes; ++node)
-    {
-      const double inverse_mass = 1. / (discretization.mass[node] * mass_factor);
-      for (unsigned int d = 0; d < 3; ++d, ++i)
-        state.dx_next.local_element(i) = carry * velocity.local_element(i) +
-                                         inverse_mass * state.force.local_element(i);
-    }
+      {
+        const double inverse_mass = 1. / (discretization.mass[node] * mass_factor);
+        for (unsigned int d = 0; d < 3; ++d, ++i)
+          state.dx_next.local_element(i) = carry * velocity.local_element(i) +
+                                           inverse_mass * state.force.local_element(i);
+      }
   }
 
 
@@ -63,11 +65,11 @@ namespace akmon
     const double *const force = state.force.begin();
     double *const dx_next     = state.dx_next.begin();
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
-    {
-      const double inverse_mass = 1. / (discretization.mass[node] * mass_factor);
-      for (unsigned int i = 3 * node; i < 3 * node + 3; ++i)
-        dx_next[i] = carry * dx[i] + inverse_mass * force[i];
-    }
+      {
+        const double inverse_mass = 1. / (discretization.mass[node] * mass_factor);
+        for (unsigned int i = 3 * node; i < 3 * node + 3; ++i)
+          dx_next[i] = carry * dx[i] + inverse_mass * force[i];
+      }
   }
 
 
@@ -76,12 +78,12 @@ namespace akmon
   {
     double sum = 0.;
     if (state.step == 0)
-    {
-      for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
-        sum += discretization.mass[node] * velocity(node).norm_square();
-      return 0.5 * sum;
-    }
-    const double        dt = state.dt, dt_next = state.dt_next, dt_bar = 0.5 * (dt + dt_next);
+      {
+        for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
+          sum += discretization.mass[node] * velocity(node).norm_square();
+        return 0.5 * sum;
+      }
+    const double dt = state.dt, dt_next = state.dt_next, dt_bar = 0.5 * (dt + dt_next);
     const double *const dx      = state.dx.begin();
     const double *const dx_next = state.dx_next.begin();
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)

@@ -49,12 +49,12 @@ namespace akmon
       return;
     std::size_t used = 0;
     try
-    {
-      fixed_step = std::stod(step, &used);
-    }
+      {
+        fixed_step = std::stod(step, &used);
+      }
     catch (const std::exception &)
-    {
-    }
+      {
+      }
     if (used != step.size() || !(fixed_step > 0.) || !std::isfinite(fixed_step))
       throw InputError("Time", "Step", step, "allowed are positive numbers or 'automatic'");
   }
@@ -65,8 +65,8 @@ namespace akmon
   {
     const double rest = end - t;
     if (!automatic())
-      return rest > rounding * fixed_step && rest < fixed_step * (1. + rounding) ? rest
-                                                                                 : fixed_step;
+      return rest > rounding * fixed_step && rest < fixed_step * (1. + rounding) ? rest :
+                                                                                   fixed_step;
     const double step = safety_factor * 2. / std::sqrt(largest_frequency_squared);
     if (rest <= rounding * step || rest >= 2. * step)
       return step;

@@ -55,17 +55,17 @@ namespace akmon::test
     const NodalState &state     = simulation.current_state();
     double initial_length = 0., highest = 0., lowest = 1e300;
     for (unsigned int node = 0; node < model.n_owned_nodes; ++node)
-    {
-      const auto X = at_node(model.reference, node), x = at_node(state.x, node);
-      initial_length = std::max(initial_length, X[2]);
-      highest        = std::max(highest, x[2]);
-      lowest         = std::min(lowest, x[2]);
-      if (X[2] == 0.)
       {
-        bar.radius = std::max(bar.radius, std::hypot(x[0], x[1]));
-        bar.lift   = std::max(bar.lift, x[2]);
+        const auto X = at_node(model.reference, node), x = at_node(state.x, node);
+        initial_length = std::max(initial_length, X[2]);
+        highest        = std::max(highest, x[2]);
+        lowest         = std::min(lowest, x[2]);
+        if (X[2] == 0.)
+          {
+            bar.radius = std::max(bar.radius, std::hypot(x[0], x[1]));
+            bar.lift   = std::max(bar.lift, x[2]);
+          }
       }
-    }
     // A force at level n closes the gap of level n+1.
     for (unsigned int node = 0; node < model.n_owned_nodes; ++node)
       if (std::abs(at_node(state.x, node)[2] + at_node(state.dx_next, node)[2]) <=

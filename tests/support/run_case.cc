@@ -6,7 +6,6 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
-
 #include <sys/wait.h>
 
 namespace akmon::test
@@ -37,7 +36,7 @@ namespace akmon::test
   Table::Table(const std::string &path)
   {
     std::ifstream in(path);
-    std::string   line, cell;
+    std::string line, cell;
     if (!std::getline(in, line))
       throw std::runtime_error(path + " is empty or absent");
     for (std::istringstream header(line); std::getline(header, cell, ',');)
@@ -85,7 +84,8 @@ namespace akmon::test
 
   ScratchDirectory::ScratchDirectory()
     : path(make_scratch_path())
-  {}
+  {
+  }
 
 
   ScratchDirectory::~ScratchDirectory()
@@ -117,11 +117,11 @@ namespace akmon::test
 
 
   Table
-  run_case_on_ranks(const std::string &             file,
-                    const unsigned int              n_ranks,
+  run_case_on_ranks(const std::string &file,
+                    const unsigned int n_ranks,
                     const std::vector<std::string> &overrides)
   {
-    const ScratchDirectory   scratch;
+    const ScratchDirectory scratch;
     std::vector<std::string> arguments = {file,
                                           "--set",
                                           "Output directory=" + scratch.path,
@@ -145,7 +145,8 @@ namespace akmon::test
   run_program(const std::vector<std::string> &arguments, const unsigned int n_ranks)
   {
     // Processes started inside an MPI process must not take it for their parent.
-    std::string command = "env -u OMPI_MCA_ess -u PMIX_RANK -u PMIX_NAMESPACE -u OMPI_COMM_WORLD_RANK -u OMPI_COMM_WORLD_SIZE ";
+    std::string command =
+      "env -u OMPI_MCA_ess -u PMIX_RANK -u PMIX_NAMESPACE -u OMPI_COMM_WORLD_RANK -u OMPI_COMM_WORLD_SIZE ";
     if (n_ranks > 1)
       command += "mpirun --oversubscribe --bind-to none -np " + std::to_string(n_ranks) + " ";
     command += quoted(AKMON_PROGRAM);
@@ -154,7 +155,7 @@ namespace akmon::test
     command += " 2>&1 </dev/null";
 
     CommandResult result;
-    std::FILE *   pipe = popen(command.c_str(), "r");
+    std::FILE *pipe = popen(command.c_str(), "r");
     if (!pipe)
       throw std::runtime_error("cannot run " + command);
     char buffer[4096];

@@ -32,7 +32,7 @@ namespace akmon::test
     rows_between(const double begin, const double end) const;
 
   private:
-    std::vector<std::string>                   names;
+    std::vector<std::string> names;
     std::map<std::string, std::vector<double>> values;
   };
 
@@ -56,25 +56,25 @@ namespace akmon::test
   shipped(const std::string &name);
 
   /**
-   * Run a case in this process, on this process alone, and return its history. Fields are not written
-   * unless asked for. Throws what Simulation throws.
+   * Run a case in this process, on this process alone, and return its history. Fields are not
+   * written unless asked for. Throws what Simulation throws.
    */
   Table
   run_case(const std::string &file, std::vector<std::string> overrides = {});
 
   /**
-   * Run a case with the program itself on several ranks; returns its history. Throws std::runtime_error
-   * with the program's output if it fails.
+   * Run a case with the program itself on several ranks; returns its history. Throws
+   * std::runtime_error with the program's output if it fails.
    */
   Table
-  run_case_on_ranks(const std::string &             file,
-                    const unsigned int              n_ranks,
+  run_case_on_ranks(const std::string &file,
+                    const unsigned int n_ranks,
                     const std::vector<std::string> &overrides = {});
 
   /// What a finished command printed (both streams) and its exit status.
   struct CommandResult
   {
-    int         status;
+    int status;
     std::string output;
   };
 

@@ -222,14 +222,14 @@ namespace
     double principal[3];
     const unsigned int intervals = 1000;
     for (unsigned int i = 0; i < 3; ++i)
-    {
-      double sum = 0.;
-      for (unsigned int k = 0; k < intervals; ++k)
-        sum += (integrand(i, double(k) / intervals) + 4. * integrand(i, (k + 0.5) / intervals) +
-                integrand(i, (k + 1.) / intervals)) /
-               (6. * intervals);
-      principal[i] = sum * stretch(i, 1.) * stretch(i, 1.) / volume(1.);
-    }
+      {
+        double sum = 0.;
+        for (unsigned int k = 0; k < intervals; ++k)
+          sum += (integrand(i, double(k) / intervals) + 4. * integrand(i, (k + 0.5) / intervals) +
+                  integrand(i, (k + 1.) / intervals)) /
+                 (6. * intervals);
+        principal[i] = sum * stretch(i, 1.) * stretch(i, 1.) / volume(1.);
+      }
     return {{principal[1], principal[0], principal[2], 0., 0., 0.}};
   }
 
@@ -298,13 +298,13 @@ namespace
     // d sigma22/dl = (lambda - sigma22)/l, hence lambda (1 - 1/l)
     for (const double stretch : {0.6, 1.5})
       for (const unsigned int N : {1, 4, 10})
-      {
-        const Stress stress = integrate(uniaxial_strain(stretch), N);
-        EXPECT_NEAR(stress[1], 400. * (1. - 1. / stretch), 1e-10);
-        EXPECT_NEAR(stress[2], 400. * (1. - 1. / stretch), 1e-10);
-        for (unsigned int i = 3; i < 6; ++i)
-          EXPECT_EQ(stress[i], 0.);
-      }
+        {
+          const Stress stress = integrate(uniaxial_strain(stretch), N);
+          EXPECT_NEAR(stress[1], 400. * (1. - 1. / stretch), 1e-10);
+          EXPECT_NEAR(stress[2], 400. * (1. - 1. / stretch), 1e-10);
+          for (unsigned int i = 3; i < 6; ++i)
+            EXPECT_EQ(stress[i], 0.);
+        }
   }
 
 
@@ -315,11 +315,11 @@ namespace
       return diagonal(1. + 0.5 * t, 1. + 0.5 * t, 1. + 0.5 * t);
     };
     for (const unsigned int N : {1, 4, 10})
-    {
-      const Stress stress = integrate(path, N);
-      for (unsigned int i = 0; i < 3; ++i)
-        EXPECT_NEAR(stress[i], 2000. / 3., 1e-10);
-    }
+      {
+        const Stress stress = integrate(path, N);
+        for (unsigned int i = 0; i < 3; ++i)
+          EXPECT_NEAR(stress[i], 2000. / 3., 1e-10);
+      }
   }
 
 
@@ -330,10 +330,10 @@ namespace
       return Matrix{{{1., 2. * t, 0.}, {0., 1., 0.}, {0., 0., 1.}}};
     };
     for (const unsigned int N : {1, 4, 10})
-    {
-      const Stress stress = integrate(path, N);
-      EXPECT_LT(distance(stress, {{1600., 0., 0., 800., 0., 0.}}), 1e-10);
-    }
+      {
+        const Stress stress = integrate(path, N);
+        EXPECT_LT(distance(stress, {{1600., 0., 0., 800., 0., 0.}}), 1e-10);
+      }
   }
 
 
@@ -367,22 +367,22 @@ namespace
     double axial   = 1.;
     double lateral = 1.;
     for (unsigned int n = 0; n < N; ++n)
-    {
-      const double next = 1. + (final_stretch - 1.) * (n + 1.) / N;
-      const auto after  = [&](const double ratio) {
-        return one_step(arc_end, diagonal(next / axial, ratio, ratio), stress);
-      };
-      double ratio = 1.;
-      for (unsigned int iteration = 0; iteration < 20; ++iteration)
       {
-        const double slope = (after(ratio + 1e-6)[1] - after(ratio - 1e-6)[1]) / 2e-6;
-        ratio -= after(ratio)[1] / slope;
+        const double next = 1. + (final_stretch - 1.) * (n + 1.) / N;
+        const auto after  = [&](const double ratio) {
+          return one_step(arc_end, diagonal(next / axial, ratio, ratio), stress);
+        };
+        double ratio = 1.;
+        for (unsigned int iteration = 0; iteration < 20; ++iteration)
+          {
+            const double slope = (after(ratio + 1e-6)[1] - after(ratio - 1e-6)[1]) / 2e-6;
+            ratio -= after(ratio)[1] / slope;
+          }
+        stress = after(ratio);
+        EXPECT_NEAR(stress[1], 0., 1e-10);
+        lateral *= ratio;
+        axial = next;
       }
-      stress = after(ratio);
-      EXPECT_NEAR(stress[1], 0., 1e-10);
-      lateral *= ratio;
-      axial = next;
-    }
     return {stress[0], lateral};
   }
 
@@ -392,22 +392,22 @@ namespace
     // sigma22 = 0 gives lateral stretch l^-nu and d sigma/dl = (E + (1 + 2 nu) sigma)/l, hence
     // E (l^(1 + 2 nu) - 1)/(1 + 2 nu).
     for (const double stretch : {0.7, 1.5})
-    {
-      const double exact         = E * (std::pow(stretch, 1. + 2. * nu) - 1.) / (1. + 2. * nu);
-      const double exact_lateral = std::pow(stretch, -nu);
-      const auto coarse          = free_bar(stretch, 20);
-      const auto fine            = free_bar(stretch, 40);
-      const double order         = observed_order(std::abs(coarse.first - exact),
-                                          std::abs(fine.first - exact));
-      const double order_lateral = observed_order(std::abs(coarse.second - exact_lateral),
-                                                  std::abs(fine.second - exact_lateral));
-      report("order_uniaxial_stress_" + std::to_string(stretch), order);
-      EXPECT_GT(order, 1.95);
-      EXPECT_LT(order, 2.05);
-      EXPECT_GT(order_lateral, 1.95);
-      EXPECT_LT(order_lateral, 2.05);
-      EXPECT_NEAR(fine.first, exact, 2e-4 * std::abs(exact));
-    }
+      {
+        const double exact         = E * (std::pow(stretch, 1. + 2. * nu) - 1.) / (1. + 2. * nu);
+        const double exact_lateral = std::pow(stretch, -nu);
+        const auto coarse          = free_bar(stretch, 20);
+        const auto fine            = free_bar(stretch, 40);
+        const double order         = observed_order(std::abs(coarse.first - exact),
+                                            std::abs(fine.first - exact));
+        const double order_lateral = observed_order(std::abs(coarse.second - exact_lateral),
+                                                    std::abs(fine.second - exact_lateral));
+        report("order_uniaxial_stress_" + std::to_string(stretch), order);
+        EXPECT_GT(order, 1.95);
+        EXPECT_LT(order, 2.05);
+        EXPECT_GT(order_lateral, 1.95);
+        EXPECT_LT(order_lateral, 2.05);
+        EXPECT_NEAR(fine.first, exact, 2e-4 * std::abs(exact));
+      }
   }
 
 
@@ -438,13 +438,13 @@ namespace
     // E = 0 for F = Q, so sigma_{n+1} = Q sigma_n Q^T; at 180 degrees F_m is singular.
     const Stress before = {{120., -340., 55., 210., -75., 33.}};
     for (const double degrees : {10., 90., 170.})
-    {
-      const Matrix Q  = rotation(degrees);
-      Stress after    = before;
-      const auto step = update(elastic, Q, after);
-      EXPECT_LT(distance(after, rotated(Q, before)), 1e-12 * norm(before)) << degrees;
-      EXPECT_LT(norm(step.strain), 1e-13) << degrees;
-    }
+      {
+        const Matrix Q  = rotation(degrees);
+        Stress after    = before;
+        const auto step = update(elastic, Q, after);
+        EXPECT_LT(distance(after, rotated(Q, before)), 1e-12 * norm(before)) << degrees;
+        EXPECT_LT(norm(step.strain), 1e-13) << degrees;
+      }
   }
 
 
@@ -455,16 +455,16 @@ namespace
     // isotropic, so sigma_{n+1} -> Q sigma_{n+1} Q^T and E_mid likewise.
     for (const double degrees : {10., 90., 170.})
       for (unsigned int trial = 0; trial < 20; ++trial)
-      {
-        const Matrix Q       = rotation(degrees);
-        const Matrix F       = random.deformation();
-        Stress fixed         = random.stress();
-        Stress turned        = rotated(Q, fixed);
-        const auto in_fixed  = update(elastic, F, fixed);
-        const auto in_turned = update(elastic, Q * F * transpose(Q), turned);
-        EXPECT_LT(distance(turned, rotated(Q, fixed)), 1e-12 * norm(fixed));
-        EXPECT_LT(distance(in_turned.strain, rotated(Q, in_fixed.strain)), 1e-13);
-      }
+        {
+          const Matrix Q       = rotation(degrees);
+          const Matrix F       = random.deformation();
+          Stress fixed         = random.stress();
+          Stress turned        = rotated(Q, fixed);
+          const auto in_fixed  = update(elastic, F, fixed);
+          const auto in_turned = update(elastic, Q * F * transpose(Q), turned);
+          EXPECT_LT(distance(turned, rotated(Q, fixed)), 1e-12 * norm(fixed));
+          EXPECT_LT(distance(in_turned.strain, rotated(Q, in_fixed.strain)), 1e-13);
+        }
   }
 
 
@@ -481,12 +481,12 @@ namespace
     EXPECT_LT(distance(straight, push_forward(F, before, 1. / determinant(F))),
               1e-12 * norm(straight));
     for (const double degrees : {10., 90., 150.})
-    {
-      const Matrix Q = rotation(degrees);
-      Stress turned  = before;
-      update(no_stiffness, Q * F, turned);
-      EXPECT_LT(distance(turned, rotated(Q, straight)), 1e-12 * norm(straight)) << degrees;
-    }
+      {
+        const Matrix Q = rotation(degrees);
+        Stress turned  = before;
+        update(no_stiffness, Q * F, turned);
+        EXPECT_LT(distance(turned, rotated(Q, straight)), 1e-12 * norm(straight)) << degrees;
+      }
   }
 
 
@@ -545,19 +545,19 @@ namespace
     Random random;
     // sym((F - I) F_m^{-1}) = F_m^{-T} (F^T F - I)/2 F_m^{-1}
     for (unsigned int trial = 0; trial < 100; ++trial)
-    {
-      const Matrix F           = random.deformation();
-      const Matrix inverse_F_m = inverse(identity_plus(0.5, minus_identity(F)));
-      const Matrix twice_E     = minus_identity(transpose(F) * F);
-      const Matrix twice_E_mid = transpose(inverse_F_m) * twice_E * inverse_F_m;
-      Stress half              = symmetric_part(twice_E_mid);
-      for (unsigned int i = 0; i < 6; ++i)
-        half[i] *= 0.5;
+      {
+        const Matrix F           = random.deformation();
+        const Matrix inverse_F_m = inverse(identity_plus(0.5, minus_identity(F)));
+        const Matrix twice_E     = minus_identity(transpose(F) * F);
+        const Matrix twice_E_mid = transpose(inverse_F_m) * twice_E * inverse_F_m;
+        Stress half              = symmetric_part(twice_E_mid);
+        for (unsigned int i = 0; i < 6; ++i)
+          half[i] *= 0.5;
 
-      Stress stress   = random.stress();
-      const auto step = update(elastic, F, stress);
-      EXPECT_LT(distance(step.strain, half), 1e-14);
-    }
+        Stress stress   = random.stress();
+        const auto step = update(elastic, F, stress);
+        EXPECT_LT(distance(step.strain, half), 1e-14);
+      }
   }
 
 
@@ -566,19 +566,19 @@ namespace
     Random random;
     // J^{-1} F sigma_n F^T + J_me^{-1} F_me (C : E_mid) F_me^T, F_me = F F_m^{-1}
     for (unsigned int trial = 0; trial < 100; ++trial)
-    {
-      const Matrix F    = random.deformation();
-      const Matrix F_me = F * inverse(identity_plus(0.5, minus_identity(F)));
-      const Stress old  = random.stress();
+      {
+        const Matrix F    = random.deformation();
+        const Matrix F_me = F * inverse(identity_plus(0.5, minus_identity(F)));
+        const Stress old  = random.stress();
 
-      Stress stress         = old;
-      const auto step       = update(elastic, F, stress);
-      const Stress expected = push_forward(F, old, 1. / determinant(F)) +
-                              push_forward(F_me,
-                                           elastic.elasticity.stress(step.strain),
-                                           1. / determinant(F_me));
-      EXPECT_LT(distance(stress, expected), 1e-13 * norm(expected));
-    }
+        Stress stress         = old;
+        const auto step       = update(elastic, F, stress);
+        const Stress expected = push_forward(F, old, 1. / determinant(F)) +
+                                push_forward(F_me,
+                                             elastic.elasticity.stress(step.strain),
+                                             1. / determinant(F_me));
+        EXPECT_LT(distance(stress, expected), 1e-13 * norm(expected));
+      }
   }
 
 
@@ -692,36 +692,38 @@ namespace
   TEST(ArcEndAsPrinted, InverseMidMapIsOfFirstOrderAndEqualHalfMapsOfSecond)
   {
     for (const auto &reading : readings)
-    {
-      for (const unsigned int N : {1, 4, 10, 100})
       {
-        report(reading.name + "_rotating_error_" + std::to_string(N), rotating_error(reading, N));
-        report(reading.name + "_uniaxial_error_" + std::to_string(N), uniaxial_error(reading, N));
+        for (const unsigned int N : {1, 4, 10, 100})
+          {
+            report(reading.name + "_rotating_error_" + std::to_string(N),
+                   rotating_error(reading, N));
+            report(reading.name + "_uniaxial_error_" + std::to_string(N),
+                   uniaxial_error(reading, N));
+          }
+        const double rotating = observed_order(rotating_error(reading, 200),
+                                               rotating_error(reading, 400));
+        const double uniaxial = observed_order(uniaxial_error(reading, 200),
+                                               uniaxial_error(reading, 400));
+        report(reading.name + "_rotating_order", rotating);
+        report(reading.name + "_uniaxial_order", uniaxial);
+        EXPECT_NEAR(rotating, reading.order, 0.05) << reading.name;
+        EXPECT_NEAR(uniaxial, reading.order, 0.05) << reading.name;
       }
-      const double rotating = observed_order(rotating_error(reading, 200),
-                                             rotating_error(reading, 400));
-      const double uniaxial = observed_order(uniaxial_error(reading, 200),
-                                             uniaxial_error(reading, 400));
-      report(reading.name + "_rotating_order", rotating);
-      report(reading.name + "_uniaxial_order", uniaxial);
-      EXPECT_NEAR(rotating, reading.order, 0.05) << reading.name;
-      EXPECT_NEAR(uniaxial, reading.order, 0.05) << reading.name;
-    }
   }
 
 
   TEST(ArcEndAsPrinted, InverseMidMapIsObjectiveToFirstOrderAndEqualHalfMapsToSecond)
   {
     for (const auto &reading : readings)
-    {
-      for (const double degrees : {1., 10., 40., 90.})
-        report(reading.name + "_lack_of_objectivity_" + std::to_string(int(degrees)),
-               lack_of_objectivity(reading.step, diagonal(1.02, 0.99, 1.01), rotation(degrees)));
-      const double order = observed_order(lack_of_objectivity(reading.step, 0.02),
-                                          lack_of_objectivity(reading.step, 0.01));
-      report(reading.name + "_objectivity_order", order);
-      EXPECT_NEAR(order, reading.order, 0.05) << reading.name;
-    }
+      {
+        for (const double degrees : {1., 10., 40., 90.})
+          report(reading.name + "_lack_of_objectivity_" + std::to_string(int(degrees)),
+                 lack_of_objectivity(reading.step, diagonal(1.02, 0.99, 1.01), rotation(degrees)));
+        const double order = observed_order(lack_of_objectivity(reading.step, 0.02),
+                                            lack_of_objectivity(reading.step, 0.01));
+        report(reading.name + "_objectivity_order", order);
+        EXPECT_NEAR(order, reading.order, 0.05) << reading.name;
+      }
   }
 
 
@@ -732,18 +734,19 @@ namespace
     // the map c^2 F_m^{-1} (.) F_m^{-T} leaves (lambda + mu)(c^2 - 1/c^2) in the plane and
     // multiplies lambda (c^2 - 1/c^2) along the axis by c^2.
     for (const double degrees : {1., 10., 90.})
-    {
-      const double c2     = std::pow(std::cos(degrees / 360. * std::acos(-1.)), 2);
-      const double strain = c2 - 1. / c2;
-      const Matrix Q      = rotation(degrees, 0., 0., 1.);
-      const Stress stress = one_step(printed_algorithm_1, Q);
-      report("algorithm_1_rigid_rotation_pressure_over_E_" + std::to_string(int(degrees)),
-             stress[0] / E);
-      EXPECT_LT(distance(stress, {{800. * strain, 800. * strain, 400. * c2 * strain, 0., 0., 0.}}),
-                1e-12 * E);
-      for (const auto &step : {printed_problem_1, equal_half_maps, arc_end})
-        EXPECT_LT(norm(one_step(step, Q)), 1e-12 * E);
-    }
+      {
+        const double c2     = std::pow(std::cos(degrees / 360. * std::acos(-1.)), 2);
+        const double strain = c2 - 1. / c2;
+        const Matrix Q      = rotation(degrees, 0., 0., 1.);
+        const Stress stress = one_step(printed_algorithm_1, Q);
+        report("algorithm_1_rigid_rotation_pressure_over_E_" + std::to_string(int(degrees)),
+               stress[0] / E);
+        EXPECT_LT(distance(stress,
+                           {{800. * strain, 800. * strain, 400. * c2 * strain, 0., 0., 0.}}),
+                  1e-12 * E);
+        for (const auto &step : {printed_problem_1, equal_half_maps, arc_end})
+          EXPECT_LT(norm(one_step(step, Q)), 1e-12 * E);
+      }
   }
 
 
@@ -810,11 +813,11 @@ namespace
 
     std::array<Result, n_lanes> results;
     for (unsigned int i = 0; i < 6; ++i)
-    {
-      scatter(stress[i], [&](const unsigned int p) -> double & { return results[p].stress[i]; });
-      scatter(step.strain[i],
-              [&](const unsigned int p) -> double & { return results[p].strain[i]; });
-    }
+      {
+        scatter(stress[i], [&](const unsigned int p) -> double & { return results[p].stress[i]; });
+        scatter(step.strain[i],
+                [&](const unsigned int p) -> double & { return results[p].strain[i]; });
+      }
     return results;
   }
 
@@ -824,17 +827,17 @@ namespace
     Random random;
     // Only the contraction of multiplications and additions may differ.
     for (unsigned int trial = 0; trial < 20; ++trial)
-    {
-      const auto points  = random_points(random);
-      const auto results = update_in_lanes(points, 0);
-      for (unsigned int p = 0; p < n_lanes; ++p)
       {
-        Stress stress   = points[p].stress;
-        const auto step = update(elastic, identity_plus(1., points[p].H), stress);
-        EXPECT_LT(distance(results[p].stress, stress), 1e-14 * norm(stress));
-        EXPECT_LT(distance(results[p].strain, step.strain), 1e-14 * norm(step.strain));
+        const auto points  = random_points(random);
+        const auto results = update_in_lanes(points, 0);
+        for (unsigned int p = 0; p < n_lanes; ++p)
+          {
+            Stress stress   = points[p].stress;
+            const auto step = update(elastic, identity_plus(1., points[p].H), stress);
+            EXPECT_LT(distance(results[p].stress, stress), 1e-14 * norm(stress));
+            EXPECT_LT(distance(results[p].strain, step.strain), 1e-14 * norm(step.strain));
+          }
       }
-    }
   }
 
 
@@ -844,9 +847,9 @@ namespace
     const auto points = random_points(random);
     const auto first  = update_in_lanes(points, 0);
     for (unsigned int shift = 1; shift < n_lanes; ++shift)
-    {
-      const auto results = update_in_lanes(points, shift);
-      EXPECT_EQ(std::memcmp(results.data(), first.data(), sizeof(first)), 0) << shift;
-    }
+      {
+        const auto results = update_in_lanes(points, shift);
+        EXPECT_EQ(std::memcmp(results.data(), first.data(), sizeof(first)), 0) << shift;
+      }
   }
 } // namespace

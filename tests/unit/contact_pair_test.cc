@@ -53,13 +53,13 @@ namespace
   {
     const Vector stick({1., 1., 0.});
     for (const auto &[mu, normal] : {std::pair<double, double>{0., 10.}, {0.5, 0.}, {0., 0.}})
-    {
-      const auto result = Coulomb{mu}.tangential_force(stick, normal);
-      EXPECT_EQ(result.force.norm(), 0.);
-      EXPECT_FALSE(result.sticks);
-      // Nothing that could stick: no force either, and no division by zero.
-      EXPECT_EQ(Coulomb{mu}.tangential_force(Vector(), normal).force.norm(), 0.);
-    }
+      {
+        const auto result = Coulomb{mu}.tangential_force(stick, normal);
+        EXPECT_EQ(result.force.norm(), 0.);
+        EXPECT_FALSE(result.sticks);
+        // Nothing that could stick: no force either, and no division by zero.
+        EXPECT_EQ(Coulomb{mu}.tangential_force(Vector(), normal).force.norm(), 0.);
+      }
     EXPECT_TRUE(Coulomb{0.5}.tangential_force(Vector(), 10.).sticks);
   }
 
@@ -68,14 +68,14 @@ namespace
   {
     for (const double mu : {0.1, 1., 3.})
       for (int i = -20; i <= 20; ++i)
-      {
-        const double normal = 2.;
-        const Vector stick({0.3 * i, 0.1 * i, -0.2 * i});
-        const auto result = Coulomb{mu}.tangential_force(stick, normal);
-        EXPECT_LE(result.force.norm(), mu * normal * (1. + 1e-15));
-        EXPECT_GE(result.force * stick, 0.);
-        EXPECT_LE(cross_product_3d(result.force, stick).norm(), 1e-14);
-      }
+        {
+          const double normal = 2.;
+          const Vector stick({0.3 * i, 0.1 * i, -0.2 * i});
+          const auto result = Coulomb{mu}.tangential_force(stick, normal);
+          EXPECT_LE(result.force.norm(), mu * normal * (1. + 1e-15));
+          EXPECT_GE(result.force * stick, 0.);
+          EXPECT_LE(cross_product_3d(result.force, stick).norm(), 1e-14);
+        }
   }
 
 
@@ -122,14 +122,17 @@ namespace
              const Vector &v_right,
              const SurfaceContact &law,
              const std::vector<PrescribedMotion> &motions = {})
-      : contacts({law}), motions(motions),
-        discretization({cube("left", Vector(), "light"),
+      : contacts({law})
+      , motions(motions)
+      , discretization({cube("left", Vector(), "light"),
                         cube("right", Vector({1. + initial_gap, 0., 0.}) + shift, "heavy")},
                        {stuff("light", 8.), stuff("heavy", 24.)},
-                       MPI_COMM_SELF),
-        state(discretization), conditions(discretization, this->motions),
-        contact(discretization, contacts, planes, conditions),
-        integrator(discretization, state, 0.), velocity(discretization.make_vector())
+                       MPI_COMM_SELF)
+      , state(discretization)
+      , conditions(discretization, this->motions)
+      , contact(discretization, contacts, planes, conditions)
+      , integrator(discretization, state, 0.)
+      , velocity(discretization.make_vector())
     {
       for (unsigned int node = 0; node < discretization.n_nodes; ++node)
         for (unsigned int d = 0; d < 3; ++d)
@@ -269,15 +272,15 @@ namespace
     EXPECT_LE((cubes.momentum() - before).norm(), 1e-14);
 
     for (unsigned int n = 0; n < 20; ++n)
-    {
-      cubes.step();
-      for (const auto &p : cubes.contact.get_pairs())
       {
-        EXPECT_GE(p.gap, -1e-15) << n;
-        EXPECT_GE(p.normal_force, 0.) << n;
+        cubes.step();
+        for (const auto &p : cubes.contact.get_pairs())
+          {
+            EXPECT_GE(p.gap, -1e-15) << n;
+            EXPECT_GE(p.normal_force, 0.) << n;
+          }
+        EXPECT_LE((cubes.momentum() - before).norm(), 1e-13) << n;
       }
-      EXPECT_LE((cubes.momentum() - before).norm(), 1e-13) << n;
-    }
   }
 
 
@@ -333,24 +336,25 @@ namespace
     const Vector v({0.7, 0.3, -0.4});
     for (const double mu : {0.1, 0.5, 0.83, 0.84, 2.})
       for (const auto stick : {ContactLaw::Stick::forward, ContactLaw::Stick::central})
-      {
-        TwoCubes cubes(one_node_overlaps, v, Vector(), contact_law(to_segment, mu, stick));
-        const auto &pair = cubes.contact.get_pairs()[0];
-        const double A   = cubes.delassus(pair);
-        const double t_n = 0.06 / A, sticking = 0.05 / A; // limit: mu = 5/6
-        EXPECT_NEAR(pair.normal_force, t_n, 1e-11);
-        const Vector direction({0., -0.6, 0.8});
-        EXPECT_EQ(pair.sticks, mu > 5. / 6.) << mu;
-        EXPECT_LE((pair.tangential_force - std::min(mu * t_n, sticking) * direction).norm(), 1e-11)
-          << mu;
-        const Vector slip = cubes.relative(pair, cubes.state.dx_next);
-        if (pair.sticks)
-          EXPECT_LE(Vector({0., slip[1], slip[2]}).norm(), 1e-16);
-        else // less than before, not reversed
-          EXPECT_LT((slip * direction) * -1., 0.05);
-        EXPECT_LE((slip * direction), 1e-16);
-        EXPECT_EQ(cubes.contact.report(cubes.state).sticking_pairs, mu > 5. / 6. ? 1u : 0u);
-      }
+        {
+          TwoCubes cubes(one_node_overlaps, v, Vector(), contact_law(to_segment, mu, stick));
+          const auto &pair = cubes.contact.get_pairs()[0];
+          const double A   = cubes.delassus(pair);
+          const double t_n = 0.06 / A, sticking = 0.05 / A; // limit: mu = 5/6
+          EXPECT_NEAR(pair.normal_force, t_n, 1e-11);
+          const Vector direction({0., -0.6, 0.8});
+          EXPECT_EQ(pair.sticks, mu > 5. / 6.) << mu;
+          EXPECT_LE((pair.tangential_force - std::min(mu * t_n, sticking) * direction).norm(),
+                    1e-11)
+            << mu;
+          const Vector slip = cubes.relative(pair, cubes.state.dx_next);
+          if (pair.sticks)
+            EXPECT_LE(Vector({0., slip[1], slip[2]}).norm(), 1e-16);
+          else // less than before, not reversed
+            EXPECT_LT((slip * direction) * -1., 0.05);
+          EXPECT_LE((slip * direction), 1e-16);
+          EXPECT_EQ(cubes.contact.report(cubes.state).sticking_pairs, mu > 5. / 6. ? 1u : 0u);
+        }
   }
 
 
@@ -359,20 +363,20 @@ namespace
     // Contact in the second step, where both notions differ: v_{n+1} = (dx/dt + dx_next/dt)/2.
     const Vector v({0.07, 0.003, -0.004});
     for (const auto stick : {ContactLaw::Stick::forward, ContactLaw::Stick::central})
-    {
-      TwoCubes cubes(one_node_overlaps, v, Vector(), contact_law(to_segment, 5., stick));
-      cubes.step();
-      const auto &pair = cubes.contact.get_pairs()[0];
-      ASSERT_TRUE(pair.sticks);
-      const Vector forward = cubes.relative(pair, cubes.state.dx_next);
-      const Vector central = (forward + cubes.relative(pair, cubes.state.dx)) / (2. * dt);
-      const Vector zero    = stick == ContactLaw::Stick::forward ? forward : central;
-      const Vector other   = stick == ContactLaw::Stick::forward ? central : forward;
-      EXPECT_LE(std::hypot(zero[1], zero[2]), 1e-17);
-      // The other one is half the approach, or the approach thrown back.
-      const double expected = stick == ContactLaw::Stick::forward ? 0.005 / 2. : 0.005 * dt;
-      EXPECT_NEAR(std::hypot(other[1], other[2]), expected, 1e-16);
-    }
+      {
+        TwoCubes cubes(one_node_overlaps, v, Vector(), contact_law(to_segment, 5., stick));
+        cubes.step();
+        const auto &pair = cubes.contact.get_pairs()[0];
+        ASSERT_TRUE(pair.sticks);
+        const Vector forward = cubes.relative(pair, cubes.state.dx_next);
+        const Vector central = (forward + cubes.relative(pair, cubes.state.dx)) / (2. * dt);
+        const Vector zero    = stick == ContactLaw::Stick::forward ? forward : central;
+        const Vector other   = stick == ContactLaw::Stick::forward ? central : forward;
+        EXPECT_LE(std::hypot(zero[1], zero[2]), 1e-17);
+        // The other one is half the approach, or the approach thrown back.
+        const double expected = stick == ContactLaw::Stick::forward ? 0.005 / 2. : 0.005 * dt;
+        EXPECT_NEAR(std::hypot(other[1], other[2]), expected, 1e-16);
+      }
   }
 
 
@@ -382,24 +386,24 @@ namespace
     const Vector v({0.7, 0.3, -0.4});
     TwoCubes frictionless(one_node_overlaps, v, Vector(), contact_law(to_segment, 0.));
     for (const double mu : {0.2, 3.})
-    {
-      TwoCubes cubes(one_node_overlaps, v, Vector(), contact_law(to_segment, mu));
-      const auto &pair     = cubes.contact.get_pairs()[0];
-      const auto &without  = frictionless.contact.get_pairs()[0];
-      const Vector A_t_tau = cubes.relative(pair, cubes.state.dx_next) -
-                             frictionless.relative(without, frictionless.state.dx_next);
-      EXPECT_LE((A_t_tau - cubes.delassus(pair) * pair.tangential_force).norm(), 1e-16);
-      EXPECT_LE(std::abs(pair.normal_force * pair.normal * A_t_tau), 1e-14);
-      EXPECT_EQ(pair.normal * pair.tangential_force, 0.);
-      EXPECT_NEAR(pair.normal_force, without.normal_force, 1e-12);
-      EXPECT_NEAR(pair.gap + pair.normal * cubes.relative(pair, cubes.state.dx_next), 0., 1e-16);
-      // A is positive on t_n: t_n . A t_n = A_ii t_n^2.
-      const Vector A_t_n = frictionless.relative(without, frictionless.state.dx_next) -
-                           frictionless.relative(without, frictionless.free);
-      EXPECT_NEAR(without.normal_force * (without.normal * A_t_n),
-                  frictionless.delassus(without) * std::pow(without.normal_force, 2),
-                  1e-12);
-    }
+      {
+        TwoCubes cubes(one_node_overlaps, v, Vector(), contact_law(to_segment, mu));
+        const auto &pair     = cubes.contact.get_pairs()[0];
+        const auto &without  = frictionless.contact.get_pairs()[0];
+        const Vector A_t_tau = cubes.relative(pair, cubes.state.dx_next) -
+                               frictionless.relative(without, frictionless.state.dx_next);
+        EXPECT_LE((A_t_tau - cubes.delassus(pair) * pair.tangential_force).norm(), 1e-16);
+        EXPECT_LE(std::abs(pair.normal_force * pair.normal * A_t_tau), 1e-14);
+        EXPECT_EQ(pair.normal * pair.tangential_force, 0.);
+        EXPECT_NEAR(pair.normal_force, without.normal_force, 1e-12);
+        EXPECT_NEAR(pair.gap + pair.normal * cubes.relative(pair, cubes.state.dx_next), 0., 1e-16);
+        // A is positive on t_n: t_n . A t_n = A_ii t_n^2.
+        const Vector A_t_n = frictionless.relative(without, frictionless.state.dx_next) -
+                             frictionless.relative(without, frictionless.free);
+        EXPECT_NEAR(without.normal_force * (without.normal * A_t_n),
+                    frictionless.delassus(without) * std::pow(without.normal_force, 2),
+                    1e-12);
+      }
   }
 
 
@@ -443,44 +447,46 @@ namespace
     // Masses 1 and 3 at 0.05 and -0.02: plastic impact of each pair, common velocity
     // (0.05 - 3 0.02)/4 once the gap is closed.
     for (const auto model : {to_segment, to_point})
-    {
-      TwoCubes cubes(Vector(),
-                     Vector({0.05, 0., 0.}),
-                     Vector({-0.02, 0., 0.}),
-                     contact_law(model, 0.));
-      const Vector before = cubes.momentum();
-      EXPECT_EQ(cubes.contact.get_pairs().size(), 4u);
-      for (unsigned int n = 1; n <= 10; ++n)
       {
-        cubes.step();
-        ASSERT_EQ(cubes.contact.get_pairs().size(), 4u);
-        EXPECT_LE((cubes.momentum() - before).norm(), 1e-15);
-        for (const auto &pair : cubes.contact.get_pairs())
-        {
-          ASSERT_EQ(pair.n_masters, 1u);
-          EXPECT_EQ(pair.N[0], 1.);
-          EXPECT_GE(pair.gap, -2e-16);
-          if (n == 1) // closes: t_n = (0.007 - 0.003)/A, A = (1 + 1/3) dt^2
+        TwoCubes cubes(Vector(),
+                       Vector({0.05, 0., 0.}),
+                       Vector({-0.02, 0., 0.}),
+                       contact_law(model, 0.));
+        const Vector before = cubes.momentum();
+        EXPECT_EQ(cubes.contact.get_pairs().size(), 4u);
+        for (unsigned int n = 1; n <= 10; ++n)
           {
-            EXPECT_NEAR(pair.normal_force, 0.004 / (4. / 3. * dt * dt), 1e-12);
+            cubes.step();
+            ASSERT_EQ(cubes.contact.get_pairs().size(), 4u);
+            EXPECT_LE((cubes.momentum() - before).norm(), 1e-15);
+            for (const auto &pair : cubes.contact.get_pairs())
+              {
+                ASSERT_EQ(pair.n_masters, 1u);
+                EXPECT_EQ(pair.N[0], 1.);
+                EXPECT_GE(pair.gap, -2e-16);
+                if (n == 1) // closes: t_n = (0.007 - 0.003)/A, A = (1 + 1/3) dt^2
+                  {
+                    EXPECT_NEAR(pair.normal_force, 0.004 / (4. / 3. * dt * dt), 1e-12);
+                  }
+                if (n == 2) // the rest of the approach, 0.003 a step
+                  {
+                    EXPECT_NEAR(pair.normal_force, 0.003 / (4. / 3. * dt * dt), 1e-12);
+                  }
+                if (n >= 2)
+                  {
+                    EXPECT_NEAR(pair.gap, 0., 2e-16);
+                    EXPECT_NEAR(at_node(cubes.state.dx_next, pair.slave)[0] / dt, -0.0025, 1e-14);
+                    EXPECT_NEAR(at_node(cubes.state.dx_next, pair.masters[0])[0] / dt,
+                                -0.0025,
+                                1e-14);
+                  }
+                if (n > 2)
+                  {
+                    EXPECT_NEAR(pair.normal_force, 0., 1e-12);
+                  }
+              }
           }
-          if (n == 2) // the rest of the approach, 0.003 a step
-          {
-            EXPECT_NEAR(pair.normal_force, 0.003 / (4. / 3. * dt * dt), 1e-12);
-          }
-          if (n >= 2)
-          {
-            EXPECT_NEAR(pair.gap, 0., 2e-16);
-            EXPECT_NEAR(at_node(cubes.state.dx_next, pair.slave)[0] / dt, -0.0025, 1e-14);
-            EXPECT_NEAR(at_node(cubes.state.dx_next, pair.masters[0])[0] / dt, -0.0025, 1e-14);
-          }
-          if (n > 2)
-          {
-            EXPECT_NEAR(pair.normal_force, 0., 1e-12);
-          }
-        }
       }
-    }
   }
 
 
@@ -493,15 +499,15 @@ namespace
     // The master face turns as its corners are pushed unevenly: gaps are linear but for 1e-9.
     double depth = 0.02;
     for (unsigned int n = 0; n < 5; ++n)
-    {
-      cubes.step();
-      const auto &pair = cubes.contact.get_pairs()[0];
-      EXPECT_NEAR(pair.gap, -depth, 1e-9) << n;
-      EXPECT_GE(pair.normal * cubes.relative(pair, cubes.state.dx_next),
-                0.05 * depth * (1. - 1e-12));
-      EXPECT_NEAR(cubes.contact.report(cubes.state).max_penetration, -pair.gap, 1e-15);
-      depth -= pair.normal * cubes.relative(pair, cubes.state.dx_next);
-    }
+      {
+        cubes.step();
+        const auto &pair = cubes.contact.get_pairs()[0];
+        EXPECT_NEAR(pair.gap, -depth, 1e-9) << n;
+        EXPECT_GE(pair.normal * cubes.relative(pair, cubes.state.dx_next),
+                  0.05 * depth * (1. - 1e-12));
+        EXPECT_NEAR(cubes.contact.report(cubes.state).max_penetration, -pair.gap, 1e-15);
+        depth -= pair.normal * cubes.relative(pair, cubes.state.dx_next);
+      }
     EXPECT_LT(depth, 0.02 - 5. * 0.05 * 0.015);
   }
 
@@ -531,10 +537,10 @@ namespace
     Fidcd integrator(discretization, state, 0.);
     auto velocity = discretization.make_vector();
     for (unsigned int node = 0; node < 8; ++node)
-    {
-      velocity.local_element(3 * node)     = 0.7;
-      velocity.local_element(3 * node + 1) = 0.4;
-    }
+      {
+        velocity.local_element(3 * node)     = 0.7;
+        velocity.local_element(3 * node + 1) = 0.4;
+      }
     integrator.start(velocity, dt);
     const double c = integrator.effective_mass_factor();
     contact.search(state);
@@ -544,14 +550,14 @@ namespace
     ASSERT_EQ(contact.get_pairs().size(), 4u);
     const double t_n = 0.06 * 2. / (dt * dt); // A = dt^2/2 for a mass of one
     for (const auto &pair : contact.get_pairs())
-    {
-      EXPECT_NEAR(pair.gap, initial_gap, 1e-15);
-      EXPECT_NEAR(pair.normal_force, t_n, 1e-12);
-      EXPECT_LE((pair.tangential_force - Vector({0., -0.25 * t_n, 0.})).norm(), 1e-12);
-      EXPECT_FALSE(pair.sticks);
-      const Vector step = at_node(state.dx_next, pair.slave);
-      EXPECT_LE((step - Vector({initial_gap, 0.04 - 0.25 * 0.06, 0.})).norm(), 1e-15);
-    }
+      {
+        EXPECT_NEAR(pair.gap, initial_gap, 1e-15);
+        EXPECT_NEAR(pair.normal_force, t_n, 1e-12);
+        EXPECT_LE((pair.tangential_force - Vector({0., -0.25 * t_n, 0.})).norm(), 1e-12);
+        EXPECT_FALSE(pair.sticks);
+        const Vector step = at_node(state.dx_next, pair.slave);
+        EXPECT_LE((step - Vector({initial_gap, 0.04 - 0.25 * 0.06, 0.})).norm(), 1e-15);
+      }
     const auto report = contact.report(state);
     EXPECT_LE((report.forces[0] - 4. * Vector({-t_n, -0.25 * t_n, 0.})).norm(), 1e-11);
   }

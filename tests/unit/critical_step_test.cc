@@ -60,22 +60,22 @@ namespace
     std::array<std::array<double, 3>, 8> reference_gradient;
     double J[3][3] = {};
     for (unsigned int a = 0; a < 8; ++a)
-    {
-      double factor[3], slope[3];
-      for (unsigned int d = 0; d < 3; ++d)
       {
-        const double sign = (a >> d) & 1 ? 1. : -1.;
-        factor[d]         = 0.5 * (1. + sign * xi[d]);
-        slope[d]          = 0.5 * sign;
-      }
-      shape.N[a]            = factor[0] * factor[1] * factor[2];
-      reference_gradient[a] = {{slope[0] * factor[1] * factor[2],
-                                factor[0] * slope[1] * factor[2],
-                                factor[0] * factor[1] * slope[2]}};
-      for (unsigned int i = 0; i < 3; ++i)
+        double factor[3], slope[3];
         for (unsigned int d = 0; d < 3; ++d)
-          J[i][d] += x[a][i] * reference_gradient[a][d];
-    }
+          {
+            const double sign = (a >> d) & 1 ? 1. : -1.;
+            factor[d]         = 0.5 * (1. + sign * xi[d]);
+            slope[d]          = 0.5 * sign;
+          }
+        shape.N[a]            = factor[0] * factor[1] * factor[2];
+        reference_gradient[a] = {{slope[0] * factor[1] * factor[2],
+                                  factor[0] * slope[1] * factor[2],
+                                  factor[0] * factor[1] * slope[2]}};
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int d = 0; d < 3; ++d)
+            J[i][d] += x[a][i] * reference_gradient[a][d];
+      }
     Tensor<2, 3> jacobian;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int d = 0; d < 3; ++d)
@@ -84,11 +84,11 @@ namespace
     const auto inverse = invert(jacobian);
     for (unsigned int a = 0; a < 8; ++a)
       for (unsigned int i = 0; i < 3; ++i)
-      {
-        shape.gradient[a][i] = 0.;
-        for (unsigned int d = 0; d < 3; ++d)
-          shape.gradient[a][i] += reference_gradient[a][d] * inverse[d][i];
-      }
+        {
+          shape.gradient[a][i] = 0.;
+          for (unsigned int d = 0; d < 3; ++d)
+            shape.gradient[a][i] += reference_gradient[a][d] * inverse[d][i];
+        }
     return shape;
   }
 
@@ -112,11 +112,11 @@ namespace
   {
     Masses mass{};
     for (const auto &point : gauss_points())
-    {
-      const Shape shape = shape_at(x, point);
-      for (unsigned int a = 0; a < 8; ++a)
-        mass[a] += density * shape.N[a] * shape.jacobian;
-    }
+      {
+        const Shape shape = shape_at(x, point);
+        for (unsigned int a = 0; a < 8; ++a)
+          mass[a] += density * shape.N[a] * shape.jacobian;
+      }
     return mass;
   }
 
@@ -143,51 +143,51 @@ namespace
     std::array<std::array<double, 3>, 8> mean_gradient{};
     double volume = 0.;
     for (const auto &point : gauss_points())
-    {
-      const Shape shape = shape_at(x, point);
-      volume += shape.jacobian;
-      for (unsigned int a = 0; a < 8; ++a)
-        for (unsigned int i = 0; i < 3; ++i)
-          mean_gradient[a][i] += shape.gradient[a][i] * shape.jacobian;
-    }
+      {
+        const Shape shape = shape_at(x, point);
+        volume += shape.jacobian;
+        for (unsigned int a = 0; a < 8; ++a)
+          for (unsigned int i = 0; i < 3; ++i)
+            mean_gradient[a][i] += shape.gradient[a][i] * shape.jacobian;
+      }
 
     dealii::LAPACKFullMatrix<double> K(24, 24);
     for (unsigned int i = 0; i < 24; ++i)
       for (unsigned int j = 0; j < 24; ++j)
         K(i, j) = 0.;
     for (const auto &point : gauss_points())
-    {
-      const Shape shape   = shape_at(x, point);
-      double B[6][24]     = {}; // xx, yy, zz, 2xy, 2yz, 2zx
-      const double lambda = elasticity.lambda, mu = elasticity.mu;
-      for (unsigned int a = 0; a < 8; ++a)
-        for (unsigned int i = 0; i < 3; ++i)
-        {
-          const unsigned int next = (i + 1) % 3;
-          B[i][3 * a + i]         = shape.gradient[a][i];
-          B[3 + i][3 * a + i]     = shape.gradient[a][next];
-          B[3 + i][3 * a + next]  = shape.gradient[a][i];
-        }
-      if (integration == CellIntegration::mean_dilatation)
+      {
+        const Shape shape   = shape_at(x, point);
+        double B[6][24]     = {}; // xx, yy, zz, 2xy, 2yz, 2zx
+        const double lambda = elasticity.lambda, mu = elasticity.mu;
         for (unsigned int a = 0; a < 8; ++a)
           for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int k = 0; k < 3; ++k)
-              B[k][3 * a + i] += (mean_gradient[a][i] / volume - shape.gradient[a][i]) / 3.;
+            {
+              const unsigned int next = (i + 1) % 3;
+              B[i][3 * a + i]         = shape.gradient[a][i];
+              B[3 + i][3 * a + i]     = shape.gradient[a][next];
+              B[3 + i][3 * a + next]  = shape.gradient[a][i];
+            }
+        if (integration == CellIntegration::mean_dilatation)
+          for (unsigned int a = 0; a < 8; ++a)
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int k = 0; k < 3; ++k)
+                B[k][3 * a + i] += (mean_gradient[a][i] / volume - shape.gradient[a][i]) / 3.;
 
-      double C[6][6] = {};
-      for (unsigned int i = 0; i < 3; ++i)
-      {
-        for (unsigned int j = 0; j < 3; ++j)
-          C[i][j] = lambda;
-        C[i][i] += 2. * mu;
-        C[3 + i][3 + i] = mu;
+        double C[6][6] = {};
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            for (unsigned int j = 0; j < 3; ++j)
+              C[i][j] = lambda;
+            C[i][i] += 2. * mu;
+            C[3 + i][3 + i] = mu;
+          }
+        for (unsigned int i = 0; i < 24; ++i)
+          for (unsigned int j = 0; j < 24; ++j)
+            for (unsigned int k = 0; k < 6; ++k)
+              for (unsigned int l = 0; l < 6; ++l)
+                K(i, j) += B[k][i] * C[k][l] * B[l][j] * shape.jacobian;
       }
-      for (unsigned int i = 0; i < 24; ++i)
-        for (unsigned int j = 0; j < 24; ++j)
-          for (unsigned int k = 0; k < 6; ++k)
-            for (unsigned int l = 0; l < 6; ++l)
-              K(i, j) += B[k][i] * C[k][l] * B[l][j] * shape.jacobian;
-    }
     for (unsigned int i = 0; i < 24; ++i)
       for (unsigned int j = 0; j < 24; ++j)
         K(i, j) = K(i, j) / std::sqrt(mass[i / 3] * mass[j / 3]);
@@ -206,10 +206,10 @@ namespace
   {
     double positions[8][3], masses[8];
     for (unsigned int a = 0; a < 8; ++a)
-    {
-      masses[a] = mass[a];
-      std::copy(x[a].begin(), x[a].end(), positions[a]);
-    }
+      {
+        masses[a] = mass[a];
+        std::copy(x[a].begin(), x[a].end(), positions[a]);
+      }
     return largest_eigenvalue(positions, masses, elasticity, integration);
   }
 
@@ -259,13 +259,13 @@ namespace
     double shear = 0.;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = i; j < 3; ++j)
-      {
-        const double n_i = 1. / edges[i], n_j = 1. / edges[j];
-        matrix[i][j] = 4. * (elasticity.lambda * n_i * n_j +
-                             (i == j ? 2. * elasticity.mu * n_i * n_i : 0.));
-        if (i != j)
-          shear = std::max(shear, 4. * elasticity.mu * (n_i * n_i + n_j * n_j));
-      }
+        {
+          const double n_i = 1. / edges[i], n_j = 1. / edges[j];
+          matrix[i][j] = 4. * (elasticity.lambda * n_i * n_j +
+                               (i == j ? 2. * elasticity.mu * n_i * n_i : 0.));
+          if (i != j)
+            shear = std::max(shear, 4. * elasticity.mu * (n_i * n_i + n_j * n_j));
+        }
     return std::max(eigenvalues(matrix)[0], shear);
   }
 
@@ -276,11 +276,11 @@ namespace
     const std::array<std::array<double, 2>, 5> published = {
       {{{0., 1.}}, {{.25, .7746}}, {{.3, .7338}}, {{.35, .6939}}, {{.45, .6159}}}};
     for (const auto &[nu, dt] : published)
-    {
-      const auto elasticity = Elasticity::from_young(1., nu);
-      const double c_d      = std::sqrt(elasticity.lambda + 2. * elasticity.mu);
-      EXPECT_NEAR(2. / std::sqrt(closed_form({{1., 1., 1.}}, elasticity)) * c_d, dt, 0.5e-4);
-    }
+      {
+        const auto elasticity = Elasticity::from_young(1., nu);
+        const double c_d      = std::sqrt(elasticity.lambda + 2. * elasticity.mu);
+        EXPECT_NEAR(2. / std::sqrt(closed_form({{1., 1., 1.}}, elasticity)) * c_d, dt, 0.5e-4);
+      }
     EXPECT_NEAR(std::sqrt(closed_form({{1., .5, .25}}, Elasticity::from_young(1., .3))),
                 9.60382015,
                 0.5e-8);
@@ -297,18 +297,18 @@ namespace
                                   std::array<double, 3>{{1., .5, .25}},
                                   std::array<double, 3>{{.25, 1., .25}},
                                   std::array<double, 3>{{10., 1., .1}}})
-        {
-          const auto elasticity = Elasticity::from_young(1., nu);
-          const Nodes x         = brick(edges[0], edges[1], edges[2]);
-          const Masses mass     = lumped_masses(x, 1.);
-          const double exact    = closed_form(edges, elasticity);
-          EXPECT_NEAR(exact_eigenvalue(x, mass, elasticity, integration), exact, 1e-10 * exact);
+          {
+            const auto elasticity = Elasticity::from_young(1., nu);
+            const Nodes x         = brick(edges[0], edges[1], edges[2]);
+            const Masses mass     = lumped_masses(x, 1.);
+            const double exact    = closed_form(edges, elasticity);
+            EXPECT_NEAR(exact_eigenvalue(x, mass, elasticity, integration), exact, 1e-10 * exact);
 
-          const double ratio = ratio_of_steps(estimate(x, mass, elasticity, integration), exact);
-          range.add(ratio);
-          EXPECT_LE(ratio, 1. + rounding) << nu << " " << edges[1] << " " << edges[2];
-          EXPECT_GE(ratio, 1. - allowed_loss) << nu << " " << edges[1] << " " << edges[2];
-        }
+            const double ratio = ratio_of_steps(estimate(x, mass, elasticity, integration), exact);
+            range.add(ratio);
+            EXPECT_LE(ratio, 1. + rounding) << nu << " " << edges[1] << " " << edges[2];
+            EXPECT_GE(ratio, 1. - allowed_loss) << nu << " " << edges[1] << " " << edges[2];
+          }
     report("bricks: least ratio of steps", range.low);
     report("bricks: largest ratio of steps", range.high);
   }
@@ -321,18 +321,18 @@ namespace
       for (const double nu : {-.1, -.3, -.6})
         for (const auto &edges :
              {std::array<double, 3>{{1., 1., 1.}}, std::array<double, 3>{{1., .5, .25}}})
-        {
-          const auto elasticity = Elasticity::from_young(1., nu);
-          const Nodes x         = brick(edges[0], edges[1], edges[2]);
-          const double exact    = closed_form(edges, elasticity);
-          const double ratio    = ratio_of_steps(estimate(x,
-                                                       lumped_masses(x, 1.),
-                                                       elasticity,
-                                                       integration),
-                                              exact);
-          EXPECT_LE(ratio, 1. + rounding) << nu << " " << edges[1];
-          EXPECT_GE(ratio, 1. - allowed_loss) << nu << " " << edges[1];
-        }
+          {
+            const auto elasticity = Elasticity::from_young(1., nu);
+            const Nodes x         = brick(edges[0], edges[1], edges[2]);
+            const double exact    = closed_form(edges, elasticity);
+            const double ratio    = ratio_of_steps(estimate(x,
+                                                         lumped_masses(x, 1.),
+                                                         elasticity,
+                                                         integration),
+                                                exact);
+            EXPECT_LE(ratio, 1. + rounding) << nu << " " << edges[1];
+            EXPECT_GE(ratio, 1. - allowed_loss) << nu << " " << edges[1];
+          }
   }
 
 
@@ -354,16 +354,16 @@ namespace
     const Masses mass = lumped_masses(x, 1.);
     for (const auto integration : integrations)
       for (const double nu : {0., .3, .45})
-      {
-        const auto elasticity = Elasticity::from_young(1., nu);
-        const double ratio    = ratio_of_steps(estimate(x, mass, elasticity, integration),
-                                            exact_eigenvalue(x, mass, elasticity, integration));
-        range.add(ratio);
-        const std::string which = name + ", nu " + std::to_string(nu) +
-                                  (integration == CellIntegration::full ? " full" : " mean");
-        EXPECT_LE(ratio, 1. + rounding) << which;
-        EXPECT_GE(ratio, 1. - allowed_loss) << which;
-      }
+        {
+          const auto elasticity = Elasticity::from_young(1., nu);
+          const double ratio    = ratio_of_steps(estimate(x, mass, elasticity, integration),
+                                              exact_eigenvalue(x, mass, elasticity, integration));
+          range.add(ratio);
+          const std::string which = name + ", nu " + std::to_string(nu) +
+                                    (integration == CellIntegration::full ? " full" : " mean");
+          EXPECT_LE(ratio, 1. + rounding) << which;
+          EXPECT_GE(ratio, 1. - allowed_loss) << which;
+        }
   }
 
 
@@ -373,13 +373,13 @@ namespace
     for (const double shear : {.25, .5, 1., 2.})
       for (const auto &edges :
            {std::array<double, 3>{{1., 1., 1.}}, std::array<double, 3>{{1., .5, .25}}})
-      {
-        const Nodes reference = brick(edges[0], edges[1], edges[2]);
-        const Tensor<2, 3> plane({{1., shear, 0.}, {0., 1., 0.}, {0., 0., 1.}});
-        const Tensor<2, 3> space({{1., shear, .5 * shear}, {0., 1., shear}, {0., 0., 1.}});
-        expect_close_to_dense(mapped(reference, plane), "plane " + std::to_string(shear), range);
-        expect_close_to_dense(mapped(reference, space), "space " + std::to_string(shear), range);
-      }
+        {
+          const Nodes reference = brick(edges[0], edges[1], edges[2]);
+          const Tensor<2, 3> plane({{1., shear, 0.}, {0., 1., 0.}, {0., 0., 1.}});
+          const Tensor<2, 3> space({{1., shear, .5 * shear}, {0., 1., shear}, {0., 0., 1.}});
+          expect_close_to_dense(mapped(reference, plane), "plane " + std::to_string(shear), range);
+          expect_close_to_dense(mapped(reference, space), "space " + std::to_string(shear), range);
+        }
     report("skewed: least ratio of steps", range.low);
     report("skewed: largest ratio of steps", range.high);
   }
@@ -392,16 +392,16 @@ namespace
     for (const double taper : {.75, .5, .25, .1})
       for (const bool both : {false, true})
         for (const double angle : {0., .5})
-        {
-          Nodes x = brick(1., 1., 1.);
-          for (unsigned int v = 4; v < 8; ++v)
           {
-            const double p = taper * (x[v][0] - .5), q = (both ? taper : 1.) * (x[v][1] - .5);
-            x[v][0] = .5 + std::cos(angle) * p - std::sin(angle) * q;
-            x[v][1] = .5 + std::sin(angle) * p + std::cos(angle) * q;
+            Nodes x = brick(1., 1., 1.);
+            for (unsigned int v = 4; v < 8; ++v)
+              {
+                const double p = taper * (x[v][0] - .5), q = (both ? taper : 1.) * (x[v][1] - .5);
+                x[v][0] = .5 + std::cos(angle) * p - std::sin(angle) * q;
+                x[v][1] = .5 + std::sin(angle) * p + std::cos(angle) * q;
+              }
+            expect_close_to_dense(x, "taper " + std::to_string(taper), range);
           }
-          expect_close_to_dense(x, "taper " + std::to_string(taper), range);
-        }
     report("tapered: least ratio of steps", range.low);
     report("tapered: largest ratio of steps", range.high);
   }
@@ -414,18 +414,18 @@ namespace
     Range range;
     unsigned int n_cells = 0;
     while (n_cells < 400)
-    {
-      const double amplitude = 0.35 * std::abs(uniform(generator));
-      Nodes x                = brick(1., std::pow(4., uniform(generator)), 1.);
-      const double least     = std::min(1., x[2][1]);
-      for (auto &node : x)
-        for (auto &component : node)
-          component += amplitude * least * uniform(generator);
-      if (!valid(x))
-        continue;
-      ++n_cells;
-      expect_close_to_dense(x, "random " + std::to_string(n_cells), range);
-    }
+      {
+        const double amplitude = 0.35 * std::abs(uniform(generator));
+        Nodes x                = brick(1., std::pow(4., uniform(generator)), 1.);
+        const double least     = std::min(1., x[2][1]);
+        for (auto &node : x)
+          for (auto &component : node)
+            component += amplitude * least * uniform(generator);
+        if (!valid(x))
+          continue;
+        ++n_cells;
+        expect_close_to_dense(x, "random " + std::to_string(n_cells), range);
+      }
     report("distorted: least ratio of steps", range.low);
     report("distorted: largest ratio of steps", range.high);
   }
@@ -434,16 +434,16 @@ namespace
   TEST(CellEigenvalue, IsTheSameInEveryLane)
   {
     const auto elasticity = Elasticity::from_young(1., .3);
-    // The same cells in every rotation of the lanes: the same bits. The scalar version agrees to what the
-    // bisection resolves (2^-20 of the eigenvalue bounds).
+    // The same cells in every rotation of the lanes: the same bits. The scalar version agrees to
+    // what the bisection resolves (2^-20 of the eigenvalue bounds).
     const auto in_lanes = [&](const unsigned int shift) {
       alignas(lane_alignment) double mass_lanes[8][n_lanes], x_lanes[8][3][n_lanes];
-      Lanes                          masses[8], positions[8][3];
+      Lanes masses[8], positions[8][3];
       for (unsigned int k = 0; k < n_lanes; ++k)
         {
           const unsigned int lane = (k + shift) % n_lanes;
-          const Nodes        x    = brick(1., .5 + k, 2. - .1 * k);
-          const Masses       mass = lumped_masses(x, 1. + k);
+          const Nodes x           = brick(1., .5 + k, 2. - .1 * k);
+          const Masses mass       = lumped_masses(x, 1. + k);
           for (unsigned int v = 0; v < 8; ++v)
             {
               mass_lanes[v][lane] = mass[v];
@@ -468,8 +468,11 @@ namespace
       }
     for (unsigned int k = 0; k < n_lanes; ++k)
       {
-        const Nodes  x     = brick(1., .5 + k, 2. - .1 * k);
-        const double alone = estimate(x, lumped_masses(x, 1. + k), elasticity, CellIntegration::mean_dilatation);
+        const Nodes x      = brick(1., .5 + k, 2. - .1 * k);
+        const double alone = estimate(x,
+                                      lumped_masses(x, 1. + k),
+                                      elasticity,
+                                      CellIntegration::mean_dilatation);
         EXPECT_NEAR(unshifted.get(k), alone, 2e-6 * alone);
       }
   }
@@ -532,18 +535,18 @@ namespace
         largest = std::max(largest, std::abs(q[i]) / std::sqrt(discretization.mass[i / 3]));
       std::vector<double> y(n, 0.);
       for (const double scale : {displacement / largest, -displacement / largest})
-      {
-        NodalVector x(discretization.reference), dx = discretization.make_vector(),
-                                                 force = discretization.make_vector();
-        for (unsigned int i = 0; i < n; ++i)
-          dx.local_element(i) = scale * q[i] / std::sqrt(discretization.mass[i / 3]);
-        for (unsigned int i = 0; i < n; ++i)
-          x.local_element(i) += dx.local_element(i);
-        InternalForces operation(unstressed);
-        operation.update(x, dx, force);
-        for (unsigned int i = 0; i < n; ++i)
-          y[i] -= 0.5 * force.local_element(i) / (scale * std::sqrt(discretization.mass[i / 3]));
-      }
+        {
+          NodalVector x(discretization.reference), dx = discretization.make_vector(),
+                                                   force = discretization.make_vector();
+          for (unsigned int i = 0; i < n; ++i)
+            dx.local_element(i) = scale * q[i] / std::sqrt(discretization.mass[i / 3]);
+          for (unsigned int i = 0; i < n; ++i)
+            x.local_element(i) += dx.local_element(i);
+          InternalForces operation(unstressed);
+          operation.update(x, dx, force);
+          for (unsigned int i = 0; i < n; ++i)
+            y[i] -= 0.5 * force.local_element(i) / (scale * std::sqrt(discretization.mass[i / 3]));
+        }
       return y;
     };
     const auto dot = [&](const std::vector<double> &a, const std::vector<double> &b) {
@@ -559,50 +562,50 @@ namespace
       value = uniform(generator);
     double eigenvalue = 0.;
     while (basis.size() < std::min(max_vectors, n))
-    {
-      const double norm = std::sqrt(dot(q, q));
-      if (!basis.empty())
       {
-        if (norm < 1e-9 * eigenvalue)
-          break;
-        off_diagonal.push_back(norm);
-      }
-      for (auto &value : q)
-        value /= norm;
-      basis.push_back(q);
-      q = apply(q);
-      diagonal.push_back(dot(q, basis.back()));
-      for (unsigned int pass = 0; pass < 2; ++pass)
-        for (const auto &b : basis)
-        {
-          const double overlap = dot(q, b);
-          for (unsigned int i = 0; i < n; ++i)
-            q[i] -= overlap * b[i];
-        }
+        const double norm = std::sqrt(dot(q, q));
+        if (!basis.empty())
+          {
+            if (norm < 1e-9 * eigenvalue)
+              break;
+            off_diagonal.push_back(norm);
+          }
+        for (auto &value : q)
+          value /= norm;
+        basis.push_back(q);
+        q = apply(q);
+        diagonal.push_back(dot(q, basis.back()));
+        for (unsigned int pass = 0; pass < 2; ++pass)
+          for (const auto &b : basis)
+            {
+              const double overlap = dot(q, b);
+              for (unsigned int i = 0; i < n; ++i)
+                q[i] -= overlap * b[i];
+            }
 
-      // Largest Ritz value: Newton's iteration from above on the last pivot would do; bisection by
-      // Sturm's count is plainer.
-      double low = *std::max_element(diagonal.begin(), diagonal.end()), high = low;
-      for (unsigned int i = 0; i < diagonal.size(); ++i)
-        high = std::max(high,
-                        diagonal[i] + (i > 0 ? off_diagonal[i - 1] : 0.) +
-                          (i < off_diagonal.size() ? off_diagonal[i] : 0.));
-      const auto all_below = [&](const double bound) {
-        double pivot = bound - diagonal[0];
-        for (unsigned int i = 1; pivot > 0. && i < diagonal.size(); ++i)
-          pivot = bound - diagonal[i] - off_diagonal[i - 1] * off_diagonal[i - 1] / pivot;
-        return pivot > 0.;
-      };
-      while (high - low > 1e-12 * high)
-      {
-        const double middle              = 0.5 * (low + high);
-        (all_below(middle) ? high : low) = middle;
+        // Largest Ritz value: Newton's iteration from above on the last pivot would do; bisection
+        // by Sturm's count is plainer.
+        double low = *std::max_element(diagonal.begin(), diagonal.end()), high = low;
+        for (unsigned int i = 0; i < diagonal.size(); ++i)
+          high = std::max(high,
+                          diagonal[i] + (i > 0 ? off_diagonal[i - 1] : 0.) +
+                            (i < off_diagonal.size() ? off_diagonal[i] : 0.));
+        const auto all_below = [&](const double bound) {
+          double pivot = bound - diagonal[0];
+          for (unsigned int i = 1; pivot > 0. && i < diagonal.size(); ++i)
+            pivot = bound - diagonal[i] - off_diagonal[i - 1] * off_diagonal[i - 1] / pivot;
+          return pivot > 0.;
+        };
+        while (high - low > 1e-12 * high)
+          {
+            const double middle              = 0.5 * (low + high);
+            (all_below(middle) ? high : low) = middle;
+          }
+        const double change = std::abs(high - eigenvalue);
+        eigenvalue          = high;
+        if (basis.size() > 60 && change < 1e-10 * eigenvalue)
+          break;
       }
-      const double change = std::abs(high - eigenvalue);
-      eigenvalue          = high;
-      if (basis.size() > 60 && change < 1e-10 * eigenvalue)
-        break;
-    }
     return eigenvalue;
   }
 
@@ -644,21 +647,21 @@ namespace
                               Known{{{2, 2, 2}}, .9277},
                               Known{{{4, 4, 4}}, .9579},
                               Known{{{8, 8, 8}}, .9632}})
-    {
-      const Tensor<1, 3> size({.1 * known.cells[0], .1 * known.cells[1], .1 * known.cells[2]});
-      const auto shape       = box(size, known.cells);
-      const Steps full       = critical_steps(shape, .3, CellIntegration::full, .1);
-      const Steps mean       = critical_steps(shape, .3, CellIntegration::mean_dilatation, .1);
-      const std::string name = std::to_string(known.cells[0]) + " x " +
-                               std::to_string(known.cells[2]);
-      report("free cubes " + name + " full", full.exact);
-      report("free cubes " + name + " mean dilatation", mean.exact);
-      EXPECT_LE(full.estimated, full.exact * (1. + 1e-8)) << name;
-      EXPECT_LE(mean.estimated, mean.exact * (1. + 1e-8)) << name;
-      EXPECT_NEAR(full.exact, known.dt, 0.5e-4) << name;
-      // Averaging the dilatation only takes energy away.
-      EXPECT_GE(mean.exact, full.exact * (1. - 1e-8)) << name;
-    }
+      {
+        const Tensor<1, 3> size({.1 * known.cells[0], .1 * known.cells[1], .1 * known.cells[2]});
+        const auto shape       = box(size, known.cells);
+        const Steps full       = critical_steps(shape, .3, CellIntegration::full, .1);
+        const Steps mean       = critical_steps(shape, .3, CellIntegration::mean_dilatation, .1);
+        const std::string name = std::to_string(known.cells[0]) + " x " +
+                                 std::to_string(known.cells[2]);
+        report("free cubes " + name + " full", full.exact);
+        report("free cubes " + name + " mean dilatation", mean.exact);
+        EXPECT_LE(full.estimated, full.exact * (1. + 1e-8)) << name;
+        EXPECT_LE(mean.estimated, mean.exact * (1. + 1e-8)) << name;
+        EXPECT_NEAR(full.exact, known.dt, 0.5e-4) << name;
+        // Averaging the dilatation only takes energy away.
+        EXPECT_GE(mean.exact, full.exact * (1. - 1e-8)) << name;
+      }
   }
 
 
@@ -684,12 +687,12 @@ namespace
     for (const auto &[name, shape] : shapes)
       for (const auto integration : integrations)
         for (const double nu : {0., .3, .45})
-        {
-          const Steps steps = critical_steps(shape, nu, integration, 1.);
-          report(name + " nu " + std::to_string(nu) + " estimated over exact step",
-                 steps.estimated / steps.exact);
-          EXPECT_LE(steps.estimated, steps.exact * (1. + 1e-8)) << name << " nu " << nu;
-        }
+          {
+            const Steps steps = critical_steps(shape, nu, integration, 1.);
+            report(name + " nu " + std::to_string(nu) + " estimated over exact step",
+                   steps.estimated / steps.exact);
+            EXPECT_LE(steps.estimated, steps.exact * (1. + 1e-8)) << name << " nu " << nu;
+          }
   }
 
 
@@ -763,48 +766,48 @@ namespace
       for (const auto integration : integrations)
         for (const auto &size : {Tensor<1, 3>({1., 1., 1.}), Tensor<1, 3>({1., .5, 1.})})
           for (const double nu : {0., .3, .45})
-          {
-            const Material material = elastic(nu);
-            const Discretization discretization({body_with(box(size, {{1, 1, 1}}), integration)},
-                                                {material},
-                                                MPI_COMM_SELF);
-            InternalForces forces(discretization);
-            NodalVector x(discretization.reference), dx = discretization.make_vector(),
-                                                     force = discretization.make_vector();
-            Nodes reference, current;
-            const auto &nodes = discretization.cells[0].nodes;
-            for (unsigned int v = 0; v < 8; ++v)
-              for (unsigned int d = 0; d < 3; ++d)
-                reference[v][d] = at_node(discretization.reference, nodes[v])[d];
-            const Masses mass = lumped_masses(reference, 1.);
-
-            Range range;
-            for (unsigned int step = 1; step <= n_steps; ++step)
             {
+              const Material material = elastic(nu);
+              const Discretization discretization({body_with(box(size, {{1, 1, 1}}), integration)},
+                                                  {material},
+                                                  MPI_COMM_SELF);
+              InternalForces forces(discretization);
+              NodalVector x(discretization.reference), dx = discretization.make_vector(),
+                                                       force = discretization.make_vector();
+              Nodes reference, current;
+              const auto &nodes = discretization.cells[0].nodes;
               for (unsigned int v = 0; v < 8; ++v)
-              {
-                current[v] = motion(reference[v], double(step) / n_steps);
                 for (unsigned int d = 0; d < 3; ++d)
+                  reference[v][d] = at_node(discretization.reference, nodes[v])[d];
+              const Masses mass = lumped_masses(reference, 1.);
+
+              Range range;
+              for (unsigned int step = 1; step <= n_steps; ++step)
                 {
-                  const unsigned int i = 3 * nodes[v] + d;
-                  dx.local_element(i)  = current[v][d] - x.local_element(i);
-                  x.local_element(i)   = current[v][d];
+                  for (unsigned int v = 0; v < 8; ++v)
+                    {
+                      current[v] = motion(reference[v], double(step) / n_steps);
+                      for (unsigned int d = 0; d < 3; ++d)
+                        {
+                          const unsigned int i = 3 * nodes[v] + d;
+                          dx.local_element(i)  = current[v][d] - x.local_element(i);
+                          x.local_element(i)   = current[v][d];
+                        }
+                    }
+                  forces.update(x, dx, force);
+                  range.add(ratio_of_steps(forces.largest_frequency_squared(),
+                                           exact_eigenvalue(current,
+                                                            mass,
+                                                            material.elasticity(),
+                                                            integration)));
                 }
-              }
-              forces.update(x, dx, force);
-              range.add(ratio_of_steps(forces.largest_frequency_squared(),
-                                       exact_eigenvalue(current,
-                                                        mass,
-                                                        material.elasticity(),
-                                                        integration)));
+              EXPECT_FALSE(forces.fault().occurred());
+              EXPECT_GE(range.low, 1. - allowed_loss) << name << " nu " << nu << " " << size[1];
+              EXPECT_LE(range.high, 1. + allowed_loss) << name << " nu " << nu << " " << size[1];
+              if (size[1] == 1. && integration == CellIntegration::mean_dilatation)
+                report(name + " nu " + std::to_string(nu) + ", ratio of steps " +
+                         std::to_string(range.low) + " to",
+                       range.high);
             }
-            EXPECT_FALSE(forces.fault().occurred());
-            EXPECT_GE(range.low, 1. - allowed_loss) << name << " nu " << nu << " " << size[1];
-            EXPECT_LE(range.high, 1. + allowed_loss) << name << " nu " << nu << " " << size[1];
-            if (size[1] == 1. && integration == CellIntegration::mean_dilatation)
-              report(name + " nu " + std::to_string(nu) + ", ratio of steps " +
-                       std::to_string(range.low) + " to",
-                     range.high);
-          }
   }
 } // namespace

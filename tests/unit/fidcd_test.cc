@@ -67,15 +67,18 @@ namespace
                const Force &force,
                const Steps &steps,
                const double damping = 0.)
-      : discretization(unit_cube(), stuff(), MPI_COMM_SELF), state(discretization),
-        integrator(discretization, state, damping), force(force), steps(steps)
+      : discretization(unit_cube(), stuff(), MPI_COMM_SELF)
+      , state(discretization)
+      , integrator(discretization, state, damping)
+      , force(force)
+      , steps(steps)
     {
       auto velocity = discretization.make_vector();
       for (unsigned int node = 0; node < 3; ++node)
-      {
-        velocity.local_element(3 * node + node) = v_0;
-        state.x.local_element(3 * node + node) += u_0;
-      }
+        {
+          velocity.local_element(3 * node + node) = v_0;
+          state.x.local_element(3 * node + node) += u_0;
+        }
       set_force();
       integrator.start(velocity, steps(0., 0));
       EXPECT_DOUBLE_EQ(integrator.effective_mass_factor(), 2. / (state.dt_next * state.dt_next));
@@ -196,27 +199,27 @@ namespace
     // u_n = u_0 cos(n a) + v_0 dt/sin(a) sin(n a), sin(a/2) = omega dt/2.
     const double omega = 2., u_0 = 0.7, v_0 = -1.1;
     for (const double courant : {0.01, 0.3, 1., 1.7, 1.99})
-    {
-      const double dt = courant / omega, a = 2. * std::asin(0.5 * courant);
-      const auto exact = [&](const double n) {
-        return u_0 * std::cos(n * a) + v_0 * dt / std::sin(a) * std::sin(n * a);
-      };
-      Oscillator oscillator(
-        u_0, v_0, [&](double u, double) { return -omega * omega * u; }, constant(dt));
-      const double size = std::abs(u_0) + std::abs(v_0 * dt / std::sin(a));
-      EXPECT_NEAR(oscillator.velocity(), v_0, 1e-14 / dt);
-      for (unsigned int n = 1; n <= 1000; ++n)
       {
-        oscillator.advance();
-        ASSERT_NEAR(oscillator.displacement(), exact(n), 1e-10 * size) << courant << " " << n;
-        ASSERT_NEAR(oscillator.velocity(),
-                    (exact(n + 1.) - exact(n - 1.)) / (2. * dt),
-                    1e-10 * size / dt);
-        ASSERT_EQ(oscillator.unrest(), 0.);
-        for (const unsigned int node : {1, 2})
-          ASSERT_NEAR(oscillator.displacement(node), exact(n), 1e-10 * size);
+        const double dt = courant / omega, a = 2. * std::asin(0.5 * courant);
+        const auto exact = [&](const double n) {
+          return u_0 * std::cos(n * a) + v_0 * dt / std::sin(a) * std::sin(n * a);
+        };
+        Oscillator oscillator(
+          u_0, v_0, [&](double u, double) { return -omega * omega * u; }, constant(dt));
+        const double size = std::abs(u_0) + std::abs(v_0 * dt / std::sin(a));
+        EXPECT_NEAR(oscillator.velocity(), v_0, 1e-14 / dt);
+        for (unsigned int n = 1; n <= 1000; ++n)
+          {
+            oscillator.advance();
+            ASSERT_NEAR(oscillator.displacement(), exact(n), 1e-10 * size) << courant << " " << n;
+            ASSERT_NEAR(oscillator.velocity(),
+                        (exact(n + 1.) - exact(n - 1.)) / (2. * dt),
+                        1e-10 * size / dt);
+            ASSERT_EQ(oscillator.unrest(), 0.);
+            for (const unsigned int node : {1, 2})
+              ASSERT_NEAR(oscillator.displacement(node), exact(n), 1e-10 * size);
+          }
       }
-    }
   }
 
 
@@ -229,14 +232,14 @@ namespace
       u_0, v_0, [&](double u, double) { return -omega * omega * u; }, steps);
     double worst = 0.;
     while (oscillator.time() < 3.)
-    {
-      oscillator.advance();
-      const double phase = omega * oscillator.time();
-      const double u     = u_0 * std::cos(phase) + v_0 / omega * std::sin(phase);
-      const double v     = v_0 * std::cos(phase) - u_0 * omega * std::sin(phase);
-      worst              = std::max(
-        {worst, std::abs(oscillator.displacement() - u), std::abs(oscillator.velocity() - v)});
-    }
+      {
+        oscillator.advance();
+        const double phase = omega * oscillator.time();
+        const double u     = u_0 * std::cos(phase) + v_0 / omega * std::sin(phase);
+        const double v     = v_0 * std::cos(phase) - u_0 * omega * std::sin(phase);
+        worst              = std::max(
+          {worst, std::abs(oscillator.displacement() - u), std::abs(oscillator.velocity() - v)});
+      }
     return worst;
   }
 
@@ -251,16 +254,16 @@ namespace
   TEST(Fidcd, IsOfSecondOrderWithConstantAndSmoothlyVaryingSteps)
   {
     for (const double dt : {0.02, 0.01, 0.005})
-    {
-      const double constant_order = order(error_of_oscillation(constant(dt)),
-                                          error_of_oscillation(constant(0.5 * dt)));
-      const double smooth_order   = order(error_of_oscillation(smooth(dt)),
-                                        error_of_oscillation(smooth(0.5 * dt)));
-      report("order with constant steps", constant_order);
-      report("order with varying steps", smooth_order);
-      EXPECT_NEAR(constant_order, 2., 0.05);
-      EXPECT_NEAR(smooth_order, 2., 0.1);
-    }
+      {
+        const double constant_order = order(error_of_oscillation(constant(dt)),
+                                            error_of_oscillation(constant(0.5 * dt)));
+        const double smooth_order   = order(error_of_oscillation(smooth(dt)),
+                                          error_of_oscillation(smooth(0.5 * dt)));
+        report("order with constant steps", constant_order);
+        report("order with varying steps", smooth_order);
+        EXPECT_NEAR(constant_order, 2., 0.05);
+        EXPECT_NEAR(smooth_order, 2., 0.1);
+      }
   }
 
 
@@ -272,12 +275,12 @@ namespace
         0., 0., [](double, const double t) { return std::sin(5. * t); }, steps);
       double worst = 0.;
       while (mass.time() < 3.)
-      {
-        mass.advance();
-        worst = std::max(worst,
-                         std::abs(mass.displacement() - mass.time() / 5. +
-                                  std::sin(5. * mass.time()) / 25.));
-      }
+        {
+          mass.advance();
+          worst = std::max(worst,
+                           std::abs(mass.displacement() - mass.time() / 5. +
+                                    std::sin(5. * mass.time()) / 25.));
+        }
       return worst;
     };
     EXPECT_NEAR(order(error(constant(0.01)), error(constant(0.005))), 2., 0.05);
@@ -288,16 +291,16 @@ namespace
   TEST(Fidcd, FreeFlightIsExactWithAnySteps)
   {
     for (const auto &steps : {constant(0.1), smooth(0.1), erratic(0.1)})
-    {
-      Oscillator mass(0., 1.3, no_force, steps);
-      for (unsigned int n = 0; n < 1000; ++n)
       {
-        mass.advance();
-        ASSERT_NEAR(mass.displacement(), 1.3 * mass.time(), 1e-12 * (1. + mass.time()));
-        ASSERT_NEAR(mass.velocity(), 1.3, 1e-12);
-        ASSERT_NEAR(mass.kinetic_energy(), 0.5 * 1.3 * 1.3, 1e-12);
+        Oscillator mass(0., 1.3, no_force, steps);
+        for (unsigned int n = 0; n < 1000; ++n)
+          {
+            mass.advance();
+            ASSERT_NEAR(mass.displacement(), 1.3 * mass.time(), 1e-12 * (1. + mass.time()));
+            ASSERT_NEAR(mass.velocity(), 1.3, 1e-12);
+            ASSERT_NEAR(mass.kinetic_energy(), 0.5 * 1.3 * 1.3, 1e-12);
+          }
       }
-    }
   }
 
 
@@ -307,21 +310,21 @@ namespace
     // the velocity at a level is the mean of two: off by g (dt' - dt)/4.
     const double g = -9.81, v_0 = 3.;
     for (const auto &steps : {constant(0.1), smooth(0.1), erratic(0.1)})
-    {
-      Oscillator mass(
-        0.2, v_0, [&](double, double) { return g; }, steps);
-      for (unsigned int n = 0; n < 300; ++n)
       {
-        mass.advance();
-        const double t = mass.time();
-        ASSERT_NEAR(mass.displacement(),
-                    0.2 + v_0 * t + 0.5 * g * t * t,
-                    1e-12 * (1. + t * t * 9.));
-        ASSERT_NEAR(mass.velocity(),
-                    v_0 + g * t + 0.25 * g * (mass.state.dt_next - mass.state.dt),
-                    1e-11 * (1. + t));
+        Oscillator mass(
+          0.2, v_0, [&](double, double) { return g; }, steps);
+        for (unsigned int n = 0; n < 300; ++n)
+          {
+            mass.advance();
+            const double t = mass.time();
+            ASSERT_NEAR(mass.displacement(),
+                        0.2 + v_0 * t + 0.5 * g * t * t,
+                        1e-12 * (1. + t * t * 9.));
+            ASSERT_NEAR(mass.velocity(),
+                        v_0 + g * t + 0.25 * g * (mass.state.dt_next - mass.state.dt),
+                        1e-11 * (1. + t));
+          }
       }
-    }
   }
 
 
@@ -347,24 +350,24 @@ namespace
     Oscillator mass(0., v_0, no_force, constant(dt), eta);
     double v = v_0 * (1. - 0.5 * eta * dt), u = 0.;
     for (unsigned int n = 0; n < 300; ++n)
-    {
-      mass.advance();
-      u += dt * v;
-      ASSERT_NEAR(mass.displacement(), u, 1e-13);
-      v *= (1. - 0.5 * eta * dt) / (1. + 0.5 * eta * dt);
-    }
+      {
+        mass.advance();
+        u += dt * v;
+        ASSERT_NEAR(mass.displacement(), u, 1e-13);
+        v *= (1. - 0.5 * eta * dt) / (1. + 0.5 * eta * dt);
+      }
 
     const auto error = [&](const Steps &steps) {
       Oscillator damped(0., v_0, no_force, steps, eta);
       double worst = 0.;
       while (damped.time() < 2.)
-      {
-        damped.advance();
-        const double decay = std::exp(-eta * damped.time());
-        worst              = std::max({worst,
-                                       std::abs(damped.velocity() - v_0 * decay),
-                                       std::abs(damped.displacement() - v_0 / eta * (1. - decay))});
-      }
+        {
+          damped.advance();
+          const double decay = std::exp(-eta * damped.time());
+          worst              = std::max({worst,
+                                         std::abs(damped.velocity() - v_0 * decay),
+                                         std::abs(damped.displacement() - v_0 / eta * (1. - decay))});
+        }
       return worst;
     };
     report("damping error at dt = 0.01", error(constant(0.01)));
@@ -388,12 +391,12 @@ namespace
         u_0, 0., [&](double u, double) { return -omega * omega * u; }, steps, eta);
       double worst = 0.;
       while (damped.time() < 3.)
-      {
-        damped.advance();
-        const double t = damped.time();
-        const double u = u_0 * std::exp(-a * t) * (std::cos(b * t) + a / b * std::sin(b * t));
-        worst          = std::max(worst, std::abs(damped.displacement() - u));
-      }
+        {
+          damped.advance();
+          const double t = damped.time();
+          const double u = u_0 * std::exp(-a * t) * (std::cos(b * t) + a / b * std::sin(b * t));
+          worst          = std::max(worst, std::abs(damped.displacement() - u));
+        }
       return worst;
     };
     EXPECT_NEAR(order(error(constant(0.02)), error(constant(0.01))), 2., 0.05);
@@ -405,20 +408,20 @@ namespace
   {
     const double omega = 3.;
     for (const double courant : {1.9, 1.999, 2.001, 2.1})
-    {
-      Oscillator oscillator(
-        1., 0., [&](double u, double) { return -omega * omega * u; }, constant(courant / omega));
-      double largest = 0.;
-      for (unsigned int n = 0; n < 2000; ++n)
       {
-        oscillator.advance();
-        largest = std::max(largest, std::abs(oscillator.displacement()));
+        Oscillator oscillator(
+          1., 0., [&](double u, double) { return -omega * omega * u; }, constant(courant / omega));
+        double largest = 0.;
+        for (unsigned int n = 0; n < 2000; ++n)
+          {
+            oscillator.advance();
+            largest = std::max(largest, std::abs(oscillator.displacement()));
+          }
+        if (courant < 2.)
+          EXPECT_LE(largest, 1. + 1e-9) << courant;
+        else
+          EXPECT_GE(largest, 1e3) << courant;
       }
-      if (courant < 2.)
-        EXPECT_LE(largest, 1. + 1e-9) << courant;
-      else
-        EXPECT_GE(largest, 1e3) << courant;
-    }
   }
 
 
@@ -434,10 +437,10 @@ namespace
     oscillator.advance();
     const double first = energy();
     for (unsigned int n = 0; n < 1000; ++n)
-    {
-      oscillator.advance();
-      ASSERT_NEAR(energy(), first, 1e-12 * first);
-    }
+      {
+        oscillator.advance();
+        ASSERT_NEAR(energy(), first, 1e-12 * first);
+      }
   }
 
 

@@ -162,15 +162,15 @@ namespace
     const Case parameters = Case::read(shipped("two_bars"), {left_at("-4.9, 0, 0")});
     const Discretization discretization(parameters.bodies, parameters.materials, MPI_COMM_SELF);
     try
-    {
-      refuse_body_overlap(discretization);
-      FAIL();
-    }
+      {
+        refuse_body_overlap(discretization);
+        FAIL();
+      }
     catch (const InputError &error)
-    {
-      const std::string text = error.what();
-      for (const char *const part : {"'left'", "'right'", "0.0899999", "deep", "(0.0"})
-        EXPECT_NE(text.find(part), std::string::npos) << text;
-    }
+      {
+        const std::string text = error.what();
+        for (const char *const part : {"'left'", "'right'", "0.0899999", "deep", "(0.0"})
+          EXPECT_NE(text.find(part), std::string::npos) << text;
+      }
   }
 } // namespace

@@ -128,14 +128,14 @@ namespace
       return {{strain, lateral, lateral, 0., 0., 0.}};
     };
     for (const unsigned int N : {1, 7, 100})
-    {
-      const State state = integrate(path, N);
-      EXPECT_NEAR(state.stress[0], 404.65414, 0.5e-5) << N;
-      EXPECT_NEAR(state.stress[0], axial_stress(0.05), 1e-9) << N;
-      EXPECT_NEAR(state.eps_p, 0.046541418, 0.5e-9) << N;
-      for (unsigned int i = 1; i < 6; ++i)
-        EXPECT_NEAR(state.stress[i], 0., 1e-9) << N;
-    }
+      {
+        const State state = integrate(path, N);
+        EXPECT_NEAR(state.stress[0], 404.65414, 0.5e-5) << N;
+        EXPECT_NEAR(state.stress[0], axial_stress(0.05), 1e-9) << N;
+        EXPECT_NEAR(state.eps_p, 0.046541418, 0.5e-9) << N;
+        for (unsigned int i = 1; i < 6; ++i)
+          EXPECT_NEAR(state.stress[i], 0., 1e-9) << N;
+      }
   }
 
 
@@ -145,16 +145,16 @@ namespace
     // sigma22 = K eps - 1/3 (sigma_y + H eps_p)
     const auto path = [](const double t) -> Stress { return {{0.05 * t, 0., 0., 0., 0., 0.}}; };
     for (const unsigned int N : {1, 7, 100})
-    {
-      const State state = integrate(path, N);
-      EXPECT_NEAR(state.stress[0], 6768.6822, 0.5e-4) << N;
-      EXPECT_NEAR(state.eps_p, 0.030233154, 0.5e-9) << N;
-      EXPECT_NEAR(state.eps_p, (2. * G * 0.05 - 400.) / (3. * G + H), 1e-14) << N;
-      const double y = 400. + H * state.eps_p;
-      EXPECT_NEAR(state.stress[0], K * 0.05 + 2. / 3. * y, 1e-9) << N;
-      EXPECT_NEAR(state.stress[1], K * 0.05 - 1. / 3. * y, 1e-9) << N;
-      EXPECT_NEAR(state.stress[2], K * 0.05 - 1. / 3. * y, 1e-9) << N;
-    }
+      {
+        const State state = integrate(path, N);
+        EXPECT_NEAR(state.stress[0], 6768.6822, 0.5e-4) << N;
+        EXPECT_NEAR(state.eps_p, 0.030233154, 0.5e-9) << N;
+        EXPECT_NEAR(state.eps_p, (2. * G * 0.05 - 400.) / (3. * G + H), 1e-14) << N;
+        const double y = 400. + H * state.eps_p;
+        EXPECT_NEAR(state.stress[0], K * 0.05 + 2. / 3. * y, 1e-9) << N;
+        EXPECT_NEAR(state.stress[1], K * 0.05 - 1. / 3. * y, 1e-9) << N;
+        EXPECT_NEAR(state.stress[2], K * 0.05 - 1. / 3. * y, 1e-9) << N;
+      }
   }
 
 
@@ -164,18 +164,18 @@ namespace
     // eps_p)/sqrt(3); the same in each of the three planes.
     for (unsigned int component = 3; component < 6; ++component)
       for (const unsigned int N : {1, 7, 100})
-      {
-        const auto path = [&](const double t) {
-          Stress strain     = {};
-          strain[component] = 0.5 * 0.05 * t;
-          return strain;
-        };
-        const State state = integrate(path, N);
-        EXPECT_NEAR(state.stress[component], 232.42798, 0.5e-5) << N;
-        EXPECT_NEAR(state.eps_p, 0.025770767, 0.5e-9) << N;
-        EXPECT_NEAR(state.stress[component], (400. + H * state.eps_p) / std::sqrt(3.), 1e-9) << N;
-        EXPECT_NEAR(trace(state.stress), 0., 1e-12);
-      }
+        {
+          const auto path = [&](const double t) {
+            Stress strain     = {};
+            strain[component] = 0.5 * 0.05 * t;
+            return strain;
+          };
+          const State state = integrate(path, N);
+          EXPECT_NEAR(state.stress[component], 232.42798, 0.5e-5) << N;
+          EXPECT_NEAR(state.eps_p, 0.025770767, 0.5e-9) << N;
+          EXPECT_NEAR(state.stress[component], (400. + H * state.eps_p) / std::sqrt(3.), 1e-9) << N;
+          EXPECT_NEAR(trace(state.stress), 0., 1e-12);
+        }
   }
 
 
@@ -193,13 +193,17 @@ namespace
   {
     State state;
     for (unsigned int n = 0; n < N; ++n)
-    {
-      const double ratio = (1. + (stretch - 1.) * (n + 1.) / N) /
-                           (1. + (stretch - 1.) * n / double(N));
-      const Matrix3<double> H = {{{ratio - 1., 0., 0.}, {0., 0., 0.}, {0., 0., 0.}}};
-      state.plastic_work += arc_end_update(finite_strain_law, H, ratio, state.stress, &state.eps_p)
-                              .plastic_work;
-    }
+      {
+        const double ratio = (1. + (stretch - 1.) * (n + 1.) / N) /
+                             (1. + (stretch - 1.) * n / double(N));
+        const Matrix3<double> H = {{{ratio - 1., 0., 0.}, {0., 0., 0.}, {0., 0., 0.}}};
+        state.plastic_work += arc_end_update(finite_strain_law,
+                                             H,
+                                             ratio,
+                                             state.stress,
+                                             &state.eps_p)
+                                .plastic_work;
+      }
     return state;
   }
 
@@ -218,11 +222,11 @@ namespace
 
     double above = 1., below = stretch; // bisection for q = sigma_y
     for (unsigned int iteration = 0; iteration < 100; ++iteration)
-    {
-      const double l                = 0.5 * (above + below);
-      const double q                = lambda * (1. - 1. / l) - M * (l - 1.);
-      (q > sigma_y ? below : above) = l;
-    }
+      {
+        const double l                = 0.5 * (above + below);
+        const double q                = lambda * (1. - 1. / l) - M * (l - 1.);
+        (q > sigma_y ? below : above) = l;
+      }
 
     using Vector    = std::array<double, 3>; // sigma11, sigma22, eps_p
     const auto rate = [&](const Vector &y) -> Vector {
@@ -239,14 +243,14 @@ namespace
     const unsigned int steps = 1000;
     const double dx          = std::log(stretch / above) / steps;
     for (unsigned int n = 0; n < steps; ++n)
-    {
-      const Vector k1 = rate(y);
-      const Vector k2 = rate(along(y, 0.5 * dx, k1));
-      const Vector k3 = rate(along(y, 0.5 * dx, k2));
-      const Vector k4 = rate(along(y, dx, k3));
-      for (unsigned int i = 0; i < 3; ++i)
-        y[i] += dx / 6. * (k1[i] + 2. * k2[i] + 2. * k3[i] + k4[i]);
-    }
+      {
+        const Vector k1 = rate(y);
+        const Vector k2 = rate(along(y, 0.5 * dx, k1));
+        const Vector k3 = rate(along(y, 0.5 * dx, k2));
+        const Vector k4 = rate(along(y, dx, k3));
+        for (unsigned int i = 0; i < 3; ++i)
+          y[i] += dx / 6. * (k1[i] + 2. * k2[i] + 2. * k3[i] + k4[i]);
+      }
     State state;
     state.stress = {{y[0], y[1], y[1], 0., 0., 0.}};
     state.eps_p  = y[2];
@@ -323,20 +327,20 @@ namespace
     Random random;
     // F = q - (sigma_y + h' eps_p) = 0 after plastic flow, including with no hardening.
     for (const double hardening : {0., 100., 1e5})
-    {
-      const J2Plastic law{copper.elasticity, 400., hardening};
-      for (unsigned int trial = 0; trial < 100; ++trial)
       {
-        Stress stress       = random.tensor(5000.);
-        const double before = random.between(0., 0.01);
-        double eps_p        = before;
-        ASSERT_GT(equivalent_stress(stress), 400. + hardening * before);
-        law.return_to_yield_surface(stress, &eps_p);
-        const double y = 400. + hardening * eps_p;
-        EXPECT_GT(eps_p, before);
-        EXPECT_NEAR(equivalent_stress(stress), y, 1e-12 * y);
+        const J2Plastic law{copper.elasticity, 400., hardening};
+        for (unsigned int trial = 0; trial < 100; ++trial)
+          {
+            Stress stress       = random.tensor(5000.);
+            const double before = random.between(0., 0.01);
+            double eps_p        = before;
+            ASSERT_GT(equivalent_stress(stress), 400. + hardening * before);
+            law.return_to_yield_surface(stress, &eps_p);
+            const double y = 400. + hardening * eps_p;
+            EXPECT_GT(eps_p, before);
+            EXPECT_NEAR(equivalent_stress(stress), y, 1e-12 * y);
+          }
       }
-    }
   }
 
 
@@ -346,21 +350,22 @@ namespace
     // (25): sigma_trial - sigma = C : (d_eps dF/dsigma), dF/dsigma = 3/2 dev sigma/q at the end;
     // the flow has no trace, so the pressure stays.
     for (unsigned int trial = 0; trial < 100; ++trial)
-    {
-      const Stress trial_stress = random.tensor(5000.);
-      Stress stress             = trial_stress;
-      double eps_p              = 0.01;
-      copper.return_to_yield_surface(stress, &eps_p);
-      const double d_eps = eps_p - 0.01;
-      EXPECT_GT(d_eps, 0.);
-      const double q = equivalent_stress(stress);
-      Stress flow    = add_to_diagonal(stress, -trace(stress) / 3.);
-      for (unsigned int i = 0; i < 6; ++i)
-        flow[i] *= 1.5 / q * d_eps;
-      EXPECT_LT(norm(difference(difference(trial_stress, stress), copper.elasticity.stress(flow))),
-                1e-12 * norm(trial_stress));
-      EXPECT_NEAR(trace(stress), trace(trial_stress), 1e-12 * norm(trial_stress));
-    }
+      {
+        const Stress trial_stress = random.tensor(5000.);
+        Stress stress             = trial_stress;
+        double eps_p              = 0.01;
+        copper.return_to_yield_surface(stress, &eps_p);
+        const double d_eps = eps_p - 0.01;
+        EXPECT_GT(d_eps, 0.);
+        const double q = equivalent_stress(stress);
+        Stress flow    = add_to_diagonal(stress, -trace(stress) / 3.);
+        for (unsigned int i = 0; i < 6; ++i)
+          flow[i] *= 1.5 / q * d_eps;
+        EXPECT_LT(norm(
+                    difference(difference(trial_stress, stress), copper.elasticity.stress(flow))),
+                  1e-12 * norm(trial_stress));
+        EXPECT_NEAR(trace(stress), trace(trial_stress), 1e-12 * norm(trial_stress));
+      }
   }
 
 
@@ -379,12 +384,12 @@ namespace
   {
     // Pure shear: q = sqrt(3) tau
     for (const double factor : {1. - 1e-9, 1. + 1e-9})
-    {
-      Stress stress = {{0., 0., 0., 0., factor * 400. / std::sqrt(3.), 0.}};
-      double eps_p  = 0.;
-      copper.return_to_yield_surface(stress, &eps_p);
-      EXPECT_EQ(eps_p > 0., factor > 1.);
-    }
+      {
+        Stress stress = {{0., 0., 0., 0., factor * 400. / std::sqrt(3.), 0.}};
+        double eps_p  = 0.;
+        copper.return_to_yield_surface(stress, &eps_p);
+        EXPECT_EQ(eps_p > 0., factor > 1.);
+      }
   }
 
 
@@ -428,12 +433,12 @@ namespace
     Lanes eps_p_lanes(0.);
     const Lanes work = copper.return_to_yield_surface(lanes, &eps_p_lanes);
     for (unsigned int lane = 0; lane < n_lanes; ++lane)
-    {
-      EXPECT_EQ(work.get(lane), 0.);
-      EXPECT_EQ(eps_p_lanes.get(lane), 0.);
-      for (unsigned int i = 0; i < 6; ++i)
-        EXPECT_EQ(lanes[i].get(lane), 0.);
-    }
+      {
+        EXPECT_EQ(work.get(lane), 0.);
+        EXPECT_EQ(eps_p_lanes.get(lane), 0.);
+        for (unsigned int i = 0; i < 6; ++i)
+          EXPECT_EQ(lanes[i].get(lane), 0.);
+      }
 
     // The smallest numbers, whose square underflows
     Stress small = {{std::numeric_limits<double>::denorm_min(), 1e-300, -1e-200, 1e-160, 0., 0.}};
@@ -459,21 +464,21 @@ namespace
     const double dissipated = work - 0.5 * final_stress * final_stress / E;
     const auto path         = [&](const double t) -> Stress {
       const double strain  = 0.05 * t;
-      const double sigma   = strain <= yield_strain
-                                       ? E * strain
-                                       : 400. + E * H / (E + H) * (strain - yield_strain);
+      const double sigma   = strain <= yield_strain ?
+                                       E * strain :
+                                       400. + E * H / (E + H) * (strain - yield_strain);
       const double lateral = -nu * sigma / E - 0.5 * (strain - sigma / E);
       return {{strain, lateral, lateral, 0., 0., 0.}};
     };
     for (const unsigned int N : {1, 7, 100})
-    {
-      const State state = integrate(path, N);
-      EXPECT_NEAR(state.plastic_work, dissipated, 1e-12 * dissipated) << N;
-      EXPECT_NEAR(state.plastic_work,
-                  400. * state.eps_p + 0.5 * H * state.eps_p * state.eps_p,
-                  1e-12 * dissipated)
-        << N;
-    }
+      {
+        const State state = integrate(path, N);
+        EXPECT_NEAR(state.plastic_work, dissipated, 1e-12 * dissipated) << N;
+        EXPECT_NEAR(state.plastic_work,
+                    400. * state.eps_p + 0.5 * H * state.eps_p * state.eps_p,
+                    1e-12 * dissipated)
+          << N;
+      }
   }
 
 
@@ -483,13 +488,13 @@ namespace
     State state;
     unsigned int plastic_steps = 0;
     for (unsigned int step = 0; step < 1000; ++step)
-    {
-      const double before = state.eps_p;
-      const double work   = strain_by(copper, random.tensor(2e-3), state);
-      EXPECT_GE(work, 0.);
-      EXPECT_EQ(work > 0., state.eps_p > before);
-      plastic_steps += work > 0.;
-    }
+      {
+        const double before = state.eps_p;
+        const double work   = strain_by(copper, random.tensor(2e-3), state);
+        EXPECT_GE(work, 0.);
+        EXPECT_EQ(work > 0., state.eps_p > before);
+        plastic_steps += work > 0.;
+      }
     EXPECT_GT(plastic_steps, 100u);
     EXPECT_LT(plastic_steps, 900u);
   }
@@ -514,15 +519,15 @@ namespace
   {
     std::array<Point, n_lanes> points;
     for (unsigned int p = 0; p < n_lanes; ++p)
-    {
-      const double size = p % 2 ? 0.3 : 1e-5;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          points[p].gradient(i, j) = random.between(-size, size);
-      points[p].stress       = random.tensor(100.);
-      points[p].eps_p        = random.between(0., 0.5);
-      points[p].plastic_work = 0.;
-    }
+      {
+        const double size = p % 2 ? 0.3 : 1e-5;
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            points[p].gradient(i, j) = random.between(-size, size);
+        points[p].stress       = random.tensor(100.);
+        points[p].eps_p        = random.between(0., 0.5);
+        points[p].plastic_work = 0.;
+      }
     return points;
   }
 
@@ -569,29 +574,30 @@ namespace
     Random random;
     // Relative to the trial stress, whose rounding the return inherits.
     for (unsigned int trial = 0; trial < 20; ++trial)
-    {
-      const auto points  = random_points(random);
-      const auto results = update_in_lanes(points, 0);
-      for (unsigned int p = 0; p < n_lanes; ++p)
       {
-        Point point             = points[p];
-        const Matrix3<double> F = identity_plus(1., point.gradient);
-        const double J          = determinant(F, cofactor(F));
+        const auto points  = random_points(random);
+        const auto results = update_in_lanes(points, 0);
+        for (unsigned int p = 0; p < n_lanes; ++p)
+          {
+            Point point             = points[p];
+            const Matrix3<double> F = identity_plus(1., point.gradient);
+            const double J          = determinant(F, cofactor(F));
 
-        Stress trial_stress = point.stress;
-        arc_end_update(Hypoelastic{copper.elasticity},
-                       point.gradient,
-                       J,
-                       trial_stress,
-                       &point.eps_p);
+            Stress trial_stress = point.stress;
+            arc_end_update(Hypoelastic{copper.elasticity},
+                           point.gradient,
+                           J,
+                           trial_stress,
+                           &point.eps_p);
 
-        const auto step = arc_end_update(copper, point.gradient, J, point.stress, &point.eps_p);
-        EXPECT_EQ(point.eps_p > points[p].eps_p, p % 2 == 1);
-        EXPECT_LT(norm(difference(results[p].stress, point.stress)), 1e-14 * norm(trial_stress));
-        EXPECT_NEAR(results[p].eps_p, point.eps_p, 1e-14 * point.eps_p);
-        EXPECT_NEAR(results[p].plastic_work, step.plastic_work, 1e-14 * step.plastic_work);
+            const auto step = arc_end_update(copper, point.gradient, J, point.stress, &point.eps_p);
+            EXPECT_EQ(point.eps_p > points[p].eps_p, p % 2 == 1);
+            EXPECT_LT(norm(difference(results[p].stress, point.stress)),
+                      1e-14 * norm(trial_stress));
+            EXPECT_NEAR(results[p].eps_p, point.eps_p, 1e-14 * point.eps_p);
+            EXPECT_NEAR(results[p].plastic_work, step.plastic_work, 1e-14 * step.plastic_work);
+          }
       }
-    }
   }
 
 
@@ -601,9 +607,9 @@ namespace
     const auto points = random_points(random);
     const auto first  = update_in_lanes(points, 0);
     for (unsigned int shift = 1; shift < n_lanes; ++shift)
-    {
-      const auto results = update_in_lanes(points, shift);
-      EXPECT_EQ(std::memcmp(results.data(), first.data(), sizeof(first)), 0) << shift;
-    }
+      {
+        const auto results = update_in_lanes(points, shift);
+        EXPECT_EQ(std::memcmp(results.data(), first.data(), sizeof(first)), 0) << shift;
+      }
   }
 } // namespace

@@ -40,13 +40,13 @@ namespace
   error_of(const std::string &input)
   {
     try
-    {
-      make(input);
-    }
+      {
+        make(input);
+      }
     catch (const InputError &error)
-    {
-      return error.what();
-    }
+      {
+        return error.what();
+      }
     return "no error";
   }
 
@@ -99,23 +99,22 @@ namespace
   {
     Quality result;
     for (const auto &cell : triangulation.active_cell_iterators())
-    {
-      result.volume += cell->measure();
-      for (const unsigned int corner : cell->vertex_indices())
       {
-        const auto xi = dealii::GeometryInfo<3>::unit_cell_vertex(corner);
-        Tensor<2, 3> jacobian;
-        for (const unsigned int v : cell->vertex_indices())
-          jacobian += outer_product(dealii::GeometryInfo<3>::d_linear_shape_function_gradient(xi,
-                                                                                              v),
-                                    cell->vertex(v));
-        const double det    = determinant(jacobian);
-        result.jacobian_min = std::min(result.jacobian_min, det);
-        result.smallest     = std::min(result.smallest,
-                                   det / (jacobian[0].norm() * jacobian[1].norm() *
-                                          jacobian[2].norm()));
+        result.volume += cell->measure();
+        for (const unsigned int corner : cell->vertex_indices())
+          {
+            const auto xi = dealii::GeometryInfo<3>::unit_cell_vertex(corner);
+            Tensor<2, 3> jacobian;
+            for (const unsigned int v : cell->vertex_indices())
+              jacobian += outer_product(
+                dealii::GeometryInfo<3>::d_linear_shape_function_gradient(xi, v), cell->vertex(v));
+            const double det    = determinant(jacobian);
+            result.jacobian_min = std::min(result.jacobian_min, det);
+            result.smallest     = std::min(result.smallest,
+                                       det / (jacobian[0].norm() * jacobian[1].norm() *
+                                              jacobian[2].norm()));
+          }
       }
-    }
     return result;
   }
 
@@ -145,12 +144,12 @@ namespace
   {
     double sum = 0;
     for (const auto *face : faces_of(mesh, part))
-    {
-      const auto &v = face->vertices;
-      const auto &x = mesh.vertices;
-      sum += 0.5 * (cross_product_3d(x[v[1]] - x[v[0]], x[v[2]] - x[v[0]]).norm() +
-                    cross_product_3d(x[v[1]] - x[v[3]], x[v[2]] - x[v[3]]).norm());
-    }
+      {
+        const auto &v = face->vertices;
+        const auto &x = mesh.vertices;
+        sum += 0.5 * (cross_product_3d(x[v[1]] - x[v[0]], x[v[2]] - x[v[0]]).norm() +
+                      cross_product_3d(x[v[1]] - x[v[3]], x[v[2]] - x[v[3]]).norm());
+      }
     return sum;
   }
 
@@ -174,11 +173,11 @@ namespace
 
     std::size_t n_in_parts = 0;
     for (const auto &[name, ids] : mesh.parts)
-    {
-      EXPECT_FALSE(faces_of(mesh, name).empty()) << name;
-      if (name != "all")
-        n_in_parts += faces_of(mesh, name).size();
-    }
+      {
+        EXPECT_FALSE(faces_of(mesh, name).empty()) << name;
+        if (name != "all")
+          n_in_parts += faces_of(mesh, name).size();
+      }
     EXPECT_EQ(n_in_parts, n_faces);
   }
 
@@ -224,12 +223,12 @@ namespace
     const std::array<double, 3> half  = {{1, 1.5, 2}};
     for (unsigned int d = 0; d < 3; ++d)
       for (const int sign : {-1, 1})
-      {
-        const std::string part = std::string(1, "xyz"[d]) + (sign < 0 ? '-' : '+');
-        EXPECT_NEAR(area(mesh, part), areas[d], 1e-12) << part;
-        for (const auto *face : faces_of(mesh, part))
-          EXPECT_NEAR(mesh.vertices[face->vertices[0]][d], sign * half[d], 1e-14);
-      }
+        {
+          const std::string part = std::string(1, "xyz"[d]) + (sign < 0 ? '-' : '+');
+          EXPECT_NEAR(area(mesh, part), areas[d], 1e-12) << part;
+          for (const auto *face : faces_of(mesh, part))
+            EXPECT_NEAR(mesh.vertices[face->vertices[0]][d], sign * half[d], 1e-14);
+        }
   }
 
 
@@ -237,24 +236,24 @@ namespace
   {
     for (const unsigned int across : {1, 2, 3, 4, 6, 8})
       for (const unsigned int radial : {1, 2, 4})
-      {
-        const auto mesh = make(cylinder(
-          "set Radius = 0.5\nset Length = 2\nset Cells across = " + std::to_string(across) +
-          "\nset Cells radial = " + std::to_string(radial) + "\nset Cells axial = 3\n"));
-        expect_complete(mesh);
-        const auto q = quality(mesh);
-        EXPECT_GT(q.jacobian_min, 0);
-        EXPECT_GT(q.smallest, 0.6) << across << " across, " << radial << " radial";
-        for (const auto *face : faces_of(mesh, "side"))
-          for (const unsigned int v : face->vertices)
-            EXPECT_NEAR(distance_from_axis(mesh.vertices[v]), 0.5, 1e-15);
-        EXPECT_EQ(faces_of(mesh, "side").size(), 3 * 4 * across);
-        // The rim is a regular polygon.
-        const double polygon = 2 * across * 0.25 * std::sin(2 * PI / (4 * across));
-        EXPECT_NEAR(area(mesh, "top"), polygon, 1e-12);
-        EXPECT_NEAR(area(mesh, "bottom"), polygon, 1e-12);
-        EXPECT_NEAR(q.volume, 2 * polygon, 1e-12);
-      }
+        {
+          const auto mesh = make(cylinder(
+            "set Radius = 0.5\nset Length = 2\nset Cells across = " + std::to_string(across) +
+            "\nset Cells radial = " + std::to_string(radial) + "\nset Cells axial = 3\n"));
+          expect_complete(mesh);
+          const auto q = quality(mesh);
+          EXPECT_GT(q.jacobian_min, 0);
+          EXPECT_GT(q.smallest, 0.6) << across << " across, " << radial << " radial";
+          for (const auto *face : faces_of(mesh, "side"))
+            for (const unsigned int v : face->vertices)
+              EXPECT_NEAR(distance_from_axis(mesh.vertices[v]), 0.5, 1e-15);
+          EXPECT_EQ(faces_of(mesh, "side").size(), 3 * 4 * across);
+          // The rim is a regular polygon.
+          const double polygon = 2 * across * 0.25 * std::sin(2 * PI / (4 * across));
+          EXPECT_NEAR(area(mesh, "top"), polygon, 1e-12);
+          EXPECT_NEAR(area(mesh, "bottom"), polygon, 1e-12);
+          EXPECT_NEAR(q.volume, 2 * polygon, 1e-12);
+        }
   }
 
 
@@ -285,13 +284,13 @@ namespace
     EXPECT_NEAR(area(half, "x-"), 2, 1e-12);
     EXPECT_EQ(half.parts.count("y-"), 0u);
     for (const unsigned int d : {0, 1})
-    {
-      const std::string part = d == 0 ? "x-" : "y-";
-      EXPECT_NEAR(area(quarter, part), 1, 1e-12);
-      for (const auto *face : faces_of(quarter, part))
-        for (const unsigned int v : face->vertices)
-          EXPECT_EQ(quarter.vertices[v][d], 0);
-    }
+      {
+        const std::string part = d == 0 ? "x-" : "y-";
+        EXPECT_NEAR(area(quarter, part), 1, 1e-12);
+        for (const auto *face : faces_of(quarter, part))
+          for (const unsigned int v : face->vertices)
+            EXPECT_EQ(quarter.vertices[v][d], 0);
+      }
     expect_contains(error_of(cylinder("set Sector = half\nset Cells across = 3\n")),
                     "[Bodies/b/Cylinder] Cells across = 3: ");
   }
@@ -353,20 +352,20 @@ namespace
   {
     for (const unsigned int across : {1, 2, 4, 5})
       for (const unsigned int radial : {1, 2, 4})
-      {
-        const auto mesh = make(
-          "set Shape = sphere\nsubsection Sphere\nset Radius = 2\nset Cells across = " +
-          std::to_string(across) + "\nset Cells radial = " + std::to_string(radial) + "\nend\n");
-        expect_complete(mesh);
-        EXPECT_EQ(mesh.cells.size(), across * across * (across + 6 * radial));
-        EXPECT_EQ(faces_of(mesh, "surface").size(), 6 * across * across);
-        const auto q = quality(mesh);
-        EXPECT_GT(q.jacobian_min, 0);
-        EXPECT_GT(q.smallest, 0.4) << across << " across, " << radial << " radial";
-        for (const auto *face : faces_of(mesh, "surface"))
-          for (const unsigned int v : face->vertices)
-            EXPECT_NEAR(mesh.vertices[v].norm(), 2, 1e-15);
-      }
+        {
+          const auto mesh = make(
+            "set Shape = sphere\nsubsection Sphere\nset Radius = 2\nset Cells across = " +
+            std::to_string(across) + "\nset Cells radial = " + std::to_string(radial) + "\nend\n");
+          expect_complete(mesh);
+          EXPECT_EQ(mesh.cells.size(), across * across * (across + 6 * radial));
+          EXPECT_EQ(faces_of(mesh, "surface").size(), 6 * across * across);
+          const auto q = quality(mesh);
+          EXPECT_GT(q.jacobian_min, 0);
+          EXPECT_GT(q.smallest, 0.4) << across << " across, " << radial << " radial";
+          for (const auto *face : faces_of(mesh, "surface"))
+            for (const unsigned int v : face->vertices)
+              EXPECT_NEAR(mesh.vertices[v].norm(), 2, 1e-15);
+        }
     std::vector<double> errors;
     for (const std::string across : {"4", "8"})
       errors.push_back(4 * PI / 3 -
@@ -394,10 +393,10 @@ namespace
       "set Named parts = tip: z < 1; low: z<=2 && x>0 ; right: (x > 0) && (z > -1)\n" +
       cylinder("set Length = 4\n"));
     for (const auto &[name, ids] : plain.parts)
-    {
-      EXPECT_EQ(faces_of(mesh, name).size(), faces_of(plain, name).size()) << name;
-      EXPECT_NEAR(area(mesh, name), area(plain, name), 1e-12) << name;
-    }
+      {
+        EXPECT_EQ(faces_of(mesh, name).size(), faces_of(plain, name).size()) << name;
+        EXPECT_NEAR(area(mesh, name), area(plain, name), 1e-12) << name;
+      }
     EXPECT_NEAR(area(mesh, "tip"), area(plain, "side") / 4 + area(plain, "bottom"), 1e-12);
     EXPECT_NEAR(area(mesh, "low"), (area(plain, "side") / 2 + area(plain, "bottom")) / 2, 1e-12);
     EXPECT_NEAR(area(mesh, "right"), area(plain, "all") / 2, 1e-12);
@@ -500,16 +499,16 @@ namespace
     const std::map<std::string, double> areas =
       {{"0", 6}, {"1", 6}, {"2", 3}, {"3", 3}, {"4", 2}, {"5", 2}};
     for (const auto &name : names)
-    {
-      const auto mesh = make(file(name, "set Scale = 2\n"));
-      SCOPED_TRACE(name);
-      expect_complete(mesh);
-      EXPECT_EQ(mesh.cells.size(), 24u);
-      EXPECT_NEAR(quality(mesh).volume, 8 * 6, 1e-12);
-      EXPECT_EQ(mesh.parts.size(), areas.size() + 1);
-      for (const auto &[part, expected] : areas)
-        EXPECT_NEAR(area(mesh, part), 4 * expected, 1e-12) << part;
-    }
+      {
+        const auto mesh = make(file(name, "set Scale = 2\n"));
+        SCOPED_TRACE(name);
+        expect_complete(mesh);
+        EXPECT_EQ(mesh.cells.size(), 24u);
+        EXPECT_NEAR(quality(mesh).volume, 8 * 6, 1e-12);
+        EXPECT_EQ(mesh.parts.size(), areas.size() + 1);
+        for (const auto &[part, expected] : areas)
+          EXPECT_NEAR(area(mesh, part), 4 * expected, 1e-12) << part;
+      }
   }
 
 

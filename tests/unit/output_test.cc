@@ -99,11 +99,11 @@ namespace
                                          -std::numeric_limits<double>::min(),
                                          123456789.};
     for (const double number : numbers)
-    {
-      const double read = std::strtod(shortest_text(number).c_str(), nullptr);
-      EXPECT_EQ(read, number);
-      EXPECT_EQ(std::signbit(read), std::signbit(number));
-    }
+      {
+        const double read = std::strtod(shortest_text(number).c_str(), nullptr);
+        EXPECT_EQ(read, number);
+        EXPECT_EQ(std::signbit(read), std::signbit(number));
+      }
     EXPECT_EQ(shortest_text(0.1), "0.1");
     EXPECT_EQ(shortest_text(std::nan("")), "nan");
   }
@@ -140,15 +140,15 @@ namespace
   {
     history.add_column("time");
     try
-    {
-      history.write_row({1});
-      ADD_FAILURE() << "no error for " << path;
-    }
+      {
+        history.write_row({1});
+        ADD_FAILURE() << "no error for " << path;
+      }
     catch (const std::runtime_error &error)
-    {
-      EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
-      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
-    }
+      {
+        EXPECT_NE(std::string(error.what()).find(path), std::string::npos) << error.what();
+        EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+      }
   }
 
 
@@ -248,17 +248,17 @@ namespace
     for (const auto &path :
          std::vector<std::string>{"", "/proc/akmon", file("regular"), file("regular/below")})
       try
-      {
-        prepare_output_directory(path, comm);
-        ADD_FAILURE() << "no error for '" << path << "'";
-      }
+        {
+          prepare_output_directory(path, comm);
+          ADD_FAILURE() << "no error for '" << path << "'";
+        }
       catch (const InputError &error)
-      {
-        EXPECT_EQ(std::string(error.what())
-                    .find("output directory '" + path + "' cannot be written: "),
-                  0u)
-          << error.what();
-      }
+        {
+          EXPECT_EQ(std::string(error.what())
+                      .find("output directory '" + path + "' cannot be written: "),
+                    0u)
+            << error.what();
+        }
     EXPECT_EQ(content_of(file("regular")), "old");
   }
 } // namespace

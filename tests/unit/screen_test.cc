@@ -39,22 +39,22 @@ namespace
     const auto outer = timer.add("outer");
     const auto again = timer.add("inner");
     for (unsigned int i = 0; i < 3; ++i)
-    {
-      const StageTimer::Scope outer_timing(outer);
-      const StageTimer::Scope inner_timing(i == 0 ? again : inner);
-      std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    }
+      {
+        const StageTimer::Scope outer_timing(outer);
+        const StageTimer::Scope inner_timing(i == 0 ? again : inner);
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+      }
 
     for (const auto &totals : {timer.totals(), timer.totals(comm)})
-    {
-      ASSERT_EQ(totals.size(), 2u);
-      EXPECT_EQ(totals[0].name, "outer");
-      EXPECT_EQ(totals[1].name, "inner");
-      EXPECT_EQ(totals[0].calls, 3u);
-      EXPECT_EQ(totals[1].calls, 3u);
-      EXPECT_GE(totals[1].seconds, 0.006);
-      EXPECT_GE(totals[0].seconds, totals[1].seconds);
-    }
+      {
+        ASSERT_EQ(totals.size(), 2u);
+        EXPECT_EQ(totals[0].name, "outer");
+        EXPECT_EQ(totals[1].name, "inner");
+        EXPECT_EQ(totals[0].calls, 3u);
+        EXPECT_EQ(totals[1].calls, 3u);
+        EXPECT_GE(totals[1].seconds, 0.006);
+        EXPECT_GE(totals[0].seconds, totals[1].seconds);
+      }
   }
 
 
@@ -93,10 +93,10 @@ namespace
     Progress state;
     state.end = 1;
     for (state.step = 1; state.step <= 1000; ++state.step)
-    {
-      state.time += 1e-3;
-      screen.progress(state);
-    }
+      {
+        state.time += 1e-3;
+        screen.progress(state);
+      }
     EXPECT_EQ(count(out.str(), "\n"), is_root() ? 10u : 0u);
     EXPECT_EQ(count(out.str(), "\r"), 0u);
     EXPECT_EQ(count(out.str(), " 10.0 %"), is_root() ? 1u : 0u);
@@ -143,8 +143,8 @@ namespace
     screen.header({{"bodies", "2"}, {"time step", "1e-7"}});
     screen.closing({{"predict", 1.5, 10}, {"contact.search", 0.5, 20}}, 2);
     EXPECT_EQ(out.str(),
-              !is_root() ? ""
-                         : "  bodies     2\n"
+              !is_root() ? "" :
+                           "  bodies     2\n"
                            "  time step  1e-7\n"
                            "\n"
                            "  stage              seconds   percent       calls\n"

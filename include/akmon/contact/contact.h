@@ -17,38 +17,40 @@ namespace akmon
   /// What contact did at a time level, summed or maximized over this rank's pairs.
   struct ContactReport
   {
-    double               max_penetration          = 0.; ///< length
-    double               max_penetration_relative = 0.; ///< over the size of the cell faces at the slave
-    dealii::Point<3>     place;                         ///< of the largest relative penetration
-    unsigned int         active_pairs   = 0;
-    unsigned int         sticking_pairs = 0;
-    unsigned int         iterations     = 0;  ///< of the coupled solver, the same on all ranks
+    double max_penetration          = 0.; ///< length
+    double max_penetration_relative = 0.; ///< over the size of the cell faces at the slave
+    dealii::Point<3> place;               ///< of the largest relative penetration
+    unsigned int active_pairs   = 0;
+    unsigned int sticking_pairs = 0;
+    unsigned int iterations     = 0;          ///< of the coupled solver, the same on all ranks
     std::vector<dealii::Tensor<1, 3>> forces; ///< per interface, on the surfaces named as slaves
   };
 
 
   /**
-   * Frictional contact by complementary equations, forward Lagrangian (Problem 2 or 3, Algorithm 1 steps 2,
-   * 5 and 6): deformable surfaces and rigid planes. Interfaces are numbered contacts first, then obstacles.
+   * Frictional contact by complementary equations, forward Lagrangian (Problem 2 or 3, Algorithm 1
+   * steps 2, 5 and 6): deformable surfaces and rigid planes. Interfaces are numbered contacts
+   * first, then obstacles.
    */
   class Contact
   {
   public:
     /// Throws InputError for unknown surfaces and settings that exclude each other.
-    Contact(const Discretization &             discretization,
-            const ContactSolver &              solver,
+    Contact(const Discretization &discretization,
+            const ContactSolver &solver,
             const std::vector<SurfaceContact> &contacts,
-            const std::vector<RigidPlane> &    planes,
-            const EssentialConditions &        conditions);
+            const std::vector<RigidPlane> &planes,
+            const EssentialConditions &conditions);
 
     /// Step 2: pairs, normals and gaps at the positions state.x.
     void
     search(const NodalState &state);
 
     /**
-     * Step 5: normal forces that keep every gap non-negative at the position the step reaches. Decoupled:
-     * t_n = max(0, -(n . G dx_f + g)/A_ii); coupled: 0 <= t_n _|_ A t_n + n . G dx_f + g >= 0. An open gap g
-     * may close; a penetration g < 0 found by the search is taken back at a limited speed.
+     * Step 5: normal forces that keep every gap non-negative at the position the step reaches.
+     * Decoupled: t_n = max(0, -(n . G dx_f + g)/A_ii); coupled: 0 <= t_n _|_ A t_n + n . G dx_f + g
+     * >= 0. An open gap g may close; a penetration g < 0 found by the search is taken back at a
+     * limited speed.
      */
     void
     resolve_normal(const NodalState &state, const double effective_mass_factor);
@@ -58,7 +60,8 @@ namespace akmon
      *
      *     forward: -(1/A_ii) P_tau G dx_f        central: -(2 dt'/A_ii) P_tau G (dx_f/(2 dt') + v~)
      *
-     * coupled, the slip P_tau G dx vanishes or opposes a force on the friction circle, all pairs at once.
+     * coupled, the slip P_tau G dx vanishes or opposes a force on the friction circle, all pairs at
+     * once.
      */
     void
     resolve_friction(const NodalState &state, const double effective_mass_factor);
@@ -85,7 +88,7 @@ namespace akmon
     /// Contact force at an owned node, as a slave and as a master; force.
     struct NodalForce
     {
-      unsigned int         node; ///< local number
+      unsigned int node; ///< local number
       dealii::Tensor<1, 3> normal, tangential;
     };
 
@@ -119,29 +122,31 @@ namespace akmon
     void
     set_target_gaps(const NodalState &state);
     void
-    decoupled_friction(ContactPair &pair, const NodalState &state, const double effective_mass_factor);
+    decoupled_friction(ContactPair &pair,
+                       const NodalState &state,
+                       const double effective_mass_factor);
     double
     friction_coefficient(const ContactPair &pair, const NodalState &state) const;
     const ContactLaw &
     law_of(const ContactPair &pair) const;
 
-    const Discretization &                 discretization;
-    const ContactSolver &                  solver;
-    const std::vector<SurfaceContact> &    contacts;
-    const std::vector<RigidPlane> &        planes;
-    std::vector<SurfaceSearch>             searches;
+    const Discretization &discretization;
+    const ContactSolver &solver;
+    const std::vector<SurfaceContact> &contacts;
+    const std::vector<RigidPlane> &planes;
+    std::vector<SurfaceSearch> searches;
     std::vector<std::vector<BoundaryFace>> plane_faces;
     std::vector<std::vector<std::pair<unsigned int, double>>> plane_slaves; ///< owned node, size
-    std::vector<unsigned int>                                 surface_nodes;
-    ContactNodes                                              nodes;
-    Mobility                                                  mobility;
-    CoupledSolver                                             coupled;
-    double moved    = 0.; ///< bound of relative motion since candidates were built
-    bool   prepared = false;
+    std::vector<unsigned int> surface_nodes;
+    ContactNodes nodes;
+    Mobility mobility;
+    CoupledSolver coupled;
+    double moved  = 0.; ///< bound of relative motion since candidates were built
+    bool prepared = false;
 
-    ContactNodes::Field                     x, dx, dx_free;
-    std::vector<ContactPair>                pairs;
+    ContactNodes::Field x, dx, dx_free;
+    std::vector<ContactPair> pairs;
     std::vector<ContactNodes::Contribution> contributions;
-    std::vector<NodalForce>                 forces;
+    std::vector<NodalForce> forces;
   };
 } // namespace akmon

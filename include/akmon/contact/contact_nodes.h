@@ -8,10 +8,10 @@
 namespace akmon
 {
   /**
-   * The nodes of all contact surfaces, in a numbering of their own: the owned ones in the order of their
-   * local numbers, then those that this rank may meet but other ranks own. Contact works on short arrays
-   * in this numbering. Ids are the same numbering over all ranks; their order is that of the global node
-   * numbers and does not depend on the number of ranks.
+   * The nodes of all contact surfaces, in a numbering of their own: the owned ones in the order of
+   * their local numbers, then those that this rank may meet but other ranks own. Contact works on
+   * short arrays in this numbering. Ids are the same numbering over all ranks; their order is that
+   * of the global node numbers and does not depend on the number of ranks.
    */
   class ContactNodes
   {
@@ -19,7 +19,8 @@ namespace akmon
     using Id = dealii::types::global_dof_index;
 
     /// @param surface_nodes  owned nodes on any contact surface, sorted and unique
-    ContactNodes(const Discretization &discretization, const std::vector<unsigned int> &surface_nodes);
+    ContactNodes(const Discretization &discretization,
+                 const std::vector<unsigned int> &surface_nodes);
 
     /// Take up nodes of other ranks by their ids (owned ones are ignored; collective).
     void
@@ -135,26 +136,27 @@ namespace akmon
     /// A force on a node that came out of a pair.
     struct Contribution
     {
-      Id                   node;
-      unsigned int         interface;
-      Id                   slave;
+      Id node;
+      unsigned int interface;
+      Id slave;
       dealii::Tensor<1, 3> normal, tangential;
     };
 
     /**
-     * Bring every contribution to the owner of its node. On return all are on owned nodes and sorted by
-     * node, interface and slave: sums over them do not depend on the number of ranks (collective).
+     * Bring every contribution to the owner of its node. On return all are on owned nodes and
+     * sorted by node, interface and slave: sums over them do not depend on the number of ranks
+     * (collective).
      */
     void
     send_to_owners(std::vector<Contribution> &contributions) const;
 
   private:
-    MPI_Comm                                             communicator;
-    bool                                                 parallel;
-    std::vector<unsigned int>                            owned;        ///< local numbers
-    std::vector<Id>                                      ids_of_local; ///< by local node
+    MPI_Comm communicator;
+    bool parallel;
+    std::vector<unsigned int> owned; ///< local numbers
+    std::vector<Id> ids_of_local;    ///< by local node
     std::shared_ptr<dealii::Utilities::MPI::Partitioner> partitioner;
-    dealii::IndexSet                                     owned_indices;
-    mutable std::vector<double>                          buffer;
+    dealii::IndexSet owned_indices;
+    mutable std::vector<double> buffer;
   };
 } // namespace akmon

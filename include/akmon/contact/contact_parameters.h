@@ -19,10 +19,10 @@ namespace akmon
       decoupled ///< every pair alone (Problem 3)
     };
 
-    Type         type          = Type::coupled;
-    double       tolerance     = 1e-10; ///< of gaps, relative to the cell size
-    unsigned int limit         = 1000;  ///< applications of the operator in one solve
-    double       release_speed = 1e-4;  ///< over the dilatational wave speed
+    Type type            = Type::coupled;
+    double tolerance     = 1e-10; ///< of gaps, relative to the cell size
+    unsigned int limit   = 1000;  ///< applications of the operator in one solve
+    double release_speed = 1e-4;  ///< over the dilatational wave speed
 
     static void
     declare(dealii::ParameterHandler &prm);
@@ -41,10 +41,10 @@ namespace akmon
       central  ///< the paper's: zeroes the central velocity, so the node keeps its approach jitter
     };
 
-    std::string              name;
+    std::string name;
     std::vector<std::string> slaves; ///< "BODY:PART"
-    Coulomb                  friction;
-    Stick                    stick = Stick::forward;
+    Coulomb friction;
+    Stick stick = Stick::forward;
 
     static void
     declare(dealii::ParameterHandler &prm);
@@ -65,9 +65,9 @@ namespace akmon
     };
 
     std::vector<std::string> masters; ///< "BODY:PART"
-    GapModel                 gap_model     = GapModel::point_to_segment;
-    bool                     symmetric     = true; ///< both sides are slave and master
-    double                   rim_tolerance = 0.;   ///< of a face's size
+    GapModel gap_model   = GapModel::point_to_segment;
+    bool symmetric       = true; ///< both sides are slave and master
+    double rim_tolerance = 0.;   ///< of a face's size
 
     static void
     declare(dealii::ParameterHandler &prm);

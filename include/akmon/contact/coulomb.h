@@ -24,7 +24,7 @@ namespace akmon
     struct Result
     {
       dealii::Tensor<1, 3> force; ///< tangential force on the slave
-      bool                 sticks;
+      bool sticks;
     };
 
     /**

@@ -10,25 +10,28 @@
 namespace akmon
 {
   /**
-   * The coupled contact problem of a step (Problem 2, (72)-(75)). Normal forces solve the complementarity
-   * problem with the full Delassus operator; friction is solved for given normal forces, and both in turn
-   * until the normal forces rest. Normal forces come last, so impenetrability holds to the tolerance.
-   * Constraints may repeat each other (symmetric passes): forces are then not unique, increments are.
+   * The coupled contact problem of a step (Problem 2, (72)-(75)). Normal forces solve the
+   * complementarity problem with the full Delassus operator; friction is solved for given normal
+   * forces, and both in turn until the normal forces rest. Normal forces come last, so
+   * impenetrability holds to the tolerance. Constraints may repeat each other (symmetric passes):
+   * forces are then not unique, increments are.
    */
   class CoupledSolver
   {
   public:
-    CoupledSolver(const ContactSolver &parameters, const ContactNodes &nodes, const Mobility &mobility);
+    CoupledSolver(const ContactSolver &parameters,
+                  const ContactNodes &nodes,
+                  const Mobility &mobility);
 
     /**
-     * Normal forces of the pairs, warm-started from those they have; pairs that cannot close in this step
-     * get none (collective).
+     * Normal forces of the pairs, warm-started from those they have; pairs that cannot close in
+     * this step get none (collective).
      * @param dx_free  free increments of the step
      */
     void
-    solve_normal(std::vector<ContactPair> &  pairs,
-                 const ContactNodes::Field & dx_free,
-                 const double                effective_mass_factor);
+    solve_normal(std::vector<ContactPair> &pairs,
+                 const ContactNodes::Field &dx_free,
+                 const double effective_mass_factor);
 
     /**
      * Tangential and normal forces of the pairs of the last solve_normal() (collective).
@@ -60,15 +63,15 @@ namespace akmon
     void
     slip(const ContactNodes::Field &dx_free, const std::vector<double> &friction_coefficients);
 
-    const ContactSolver &      parameters;
-    const ContactNodes &       nodes;
-    Delassus                   delassus;
+    const ContactSolver &parameters;
+    const ContactNodes &nodes;
+    Delassus delassus;
     std::vector<ContactPair *> participants;
-    std::vector<unsigned int>  indices; ///< of the participants among all pairs
-    std::vector<double>        weights;
-    double                     norm          = 0.;
-    unsigned int               n_iterations  = 0;
-    double                     last_residual = 0.;
-    bool                       tangential_forces = false; ///< whether any has been found in this step
+    std::vector<unsigned int> indices; ///< of the participants among all pairs
+    std::vector<double> weights;
+    double norm               = 0.;
+    unsigned int n_iterations = 0;
+    double last_residual      = 0.;
+    bool tangential_forces    = false; ///< whether any has been found in this step
   };
 } // namespace akmon

@@ -9,10 +9,10 @@
 namespace akmon
 {
   /**
-   * The Delassus operator A = G m*^{-1} G^T (65)(76) of a set of pairs, applied without being assembled:
-   * forces to nodes, increments of nodes, relative increments of pairs. Scaled to a unit diagonal, which
-   * preconditions the solvers: unknowns are tau_i = t_i/s_i with s_i = A_ii^{-1/2}, results are s_i times
-   * relative increments.
+   * The Delassus operator A = G m*^{-1} G^T (65)(76) of a set of pairs, applied without being
+   * assembled: forces to nodes, increments of nodes, relative increments of pairs. Scaled to a unit
+   * diagonal, which preconditions the solvers: unknowns are tau_i = t_i/s_i with s_i = A_ii^{-1/2},
+   * results are s_i times relative increments.
    */
   class Delassus
   {
@@ -43,9 +43,11 @@ namespace akmon
 
     /// The same for tangential forces and relative increments in the contact planes (collective).
     void
-    apply_tangential(const std::vector<dealii::Tensor<1, 3>> &tau, std::vector<dealii::Tensor<1, 3>> &y);
+    apply_tangential(const std::vector<dealii::Tensor<1, 3>> &tau,
+                     std::vector<dealii::Tensor<1, 3>> &y);
 
-    /// Nodal increments that forces t_i (a vector per pair, unscaled) cause, at all contact nodes (collective).
+    /// Nodal increments that forces t_i (a vector per pair, unscaled) cause, at all contact nodes
+    /// (collective).
     template <typename Force>
     const ContactNodes::Field &
     increments(const Force &force_of_pair);
@@ -56,13 +58,13 @@ namespace akmon
     void
     forces_to_increments();
 
-    const ContactNodes &       nodes;
-    const Mobility &           mobility;
+    const ContactNodes &nodes;
+    const Mobility &mobility;
     std::vector<ContactPair *> pairs;
-    double                     mass_factor = 1.;
-    std::vector<double>        scales;
-    std::vector<unsigned int>  used; ///< contact numbers the pairs touch, sorted
-    ContactNodes::Field        field;
+    double mass_factor = 1.;
+    std::vector<double> scales;
+    std::vector<unsigned int> used; ///< contact numbers the pairs touch, sorted
+    ContactNodes::Field field;
   };
 
 

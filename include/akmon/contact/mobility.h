@@ -9,9 +9,9 @@
 namespace akmon
 {
   /**
-   * What a unit force does to a contact node: W = P/m with the projector P on the directions in which its
-   * motion is not prescribed. The Delassus operator A = G m*^{-1} G^T (65)(76) is made of W / c, c the
-   * effective mass factor of the step.
+   * What a unit force does to a contact node: W = P/m with the projector P on the directions in
+   * which its motion is not prescribed. The Delassus operator A = G m*^{-1} G^T (65)(76) is made of
+   * W / c, c the effective mass factor of the step.
    */
   class Mobility
   {
@@ -37,13 +37,16 @@ namespace akmon
       return trace_of_W > 0. ? (W[number] * W[number]) / trace_of_W : 0.;
     }
 
-    /// d . A_ii d of a pair along a unit direction d, for m* = m times @p mass_factor; length/force.
+    /// d . A_ii d of a pair along a unit direction d, for m* = m times @p mass_factor;
+    /// length/force.
     double
-    along(const ContactPair &pair, const dealii::Tensor<1, 3> &direction, const double mass_factor) const;
+    along(const ContactPair &pair,
+          const dealii::Tensor<1, 3> &direction,
+          const double mass_factor) const;
 
   private:
-    const Discretization &                     discretization;
-    const EssentialConditions &                conditions;
+    const Discretization &discretization;
+    const EssentialConditions &conditions;
     std::vector<dealii::SymmetricTensor<2, 3>> W; ///< by contact number
   };
 } // namespace akmon

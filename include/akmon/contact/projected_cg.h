@@ -69,11 +69,11 @@ namespace akmon
 
 
   /**
-   * Minimizes (1/2) t . A t + b . t over a product of convex sets by proportional conjugate gradients with
-   * projections (MPGP; Dostal, Optimal Quadratic Programming Algorithms, 2009, ch. 5 and 6): conjugate
-   * gradients on the unknowns strictly inside their sets, projected gradient steps when the sets change. A
-   * may be singular as long as the problem is bounded below; one application of A per iteration but for
-   * iterations that meet a bound.
+   * Minimizes (1/2) t . A t + b . t over a product of convex sets by proportional conjugate
+   * gradients with projections (MPGP; Dostal, Optimal Quadratic Programming Algorithms, 2009, ch. 5
+   * and 6): conjugate gradients on the unknowns strictly inside their sets, projected gradient
+   * steps when the sets change. A may be singular as long as the problem is bounded below; one
+   * application of A per iteration but for iterations that meet a bound.
    */
   template <typename Set>
   class ProjectedConjugateGradients
@@ -85,15 +85,18 @@ namespace akmon
     struct Result
     {
       unsigned int n_applications; ///< of A
-      double       residual;       ///< largest weighted component of the projected gradient
-      bool         converged;
+      double residual;             ///< largest weighted component of the projected gradient
+      bool converged;
     };
 
-    ProjectedConjugateGradients(const MPI_Comm communicator, const double tolerance, const unsigned int limit)
+    ProjectedConjugateGradients(const MPI_Comm communicator,
+                                const double tolerance,
+                                const unsigned int limit)
       : communicator(communicator)
       , tolerance(tolerance)
       , limit(limit)
-    {}
+    {
+    }
 
     /**
      * @param apply    apply(t, y): y = A t (collective)
@@ -104,23 +107,24 @@ namespace akmon
      */
     template <typename Operator>
     Result
-    solve(const Operator &           apply,
-          const Vector &             b,
-          const Set &                set,
+    solve(const Operator &apply,
+          const Vector &b,
+          const Set &set,
           const std::vector<double> &weights,
-          const double               norm,
-          Vector &                   t)
+          const double norm,
+          Vector &t)
     {
-      const std::size_t n  = t.size();
-      const double step    = norm > 0. ? 1.9 / norm : 0.;
-      n_applications       = 0;
+      const std::size_t n = t.size();
+      const double step   = norm > 0. ? 1.9 / norm : 0.;
+      n_applications      = 0;
       for (std::size_t i = 0; i < n; ++i)
         t[i] = set.project(i, t[i]);
       recompute_gradient(apply, b, t);
       p = free_gradient(set, t);
       while (true)
         {
-          // Split of the projected gradient: free part phi (and its reduced form), boundary part beta.
+          // Split of the projected gradient: free part phi (and its reduced form), boundary part
+          // beta.
           double residual = 0.;
           std::array<double, 3> sums{{0., 0., 0.}}; // beta . beta, reduced phi . phi, p . g
           for (std::size_t i = 0; i < n; ++i)
@@ -189,7 +193,11 @@ namespace akmon
     // Projected gradient step on all unknowns; restarts the conjugate directions.
     template <typename Operator>
     void
-    project_step(const Operator &apply, const Vector &b, const Set &set, const double step, Vector &t)
+    project_step(const Operator &apply,
+                 const Vector &b,
+                 const Set &set,
+                 const double step,
+                 Vector &t)
     {
       for (std::size_t i = 0; i < t.size(); ++i)
         t[i] = set.project(i, t[i] - step * g[i]);
@@ -197,23 +205,23 @@ namespace akmon
       p = free_gradient(set, t);
     }
 
-    // One conjugate gradient step, cut at the first bound it meets and followed by a projected step then.
-    // Returns false if the direction has no curvature.
+    // One conjugate gradient step, cut at the first bound it meets and followed by a projected step
+    // then. Returns false if the direction has no curvature.
     template <typename Operator>
     bool
     conjugate_step(const Operator &apply,
-                   const Vector &  b,
-                   const Set &     set,
-                   const double    step,
-                   const double    p_g,
-                   Vector &        t)
+                   const Vector &b,
+                   const Set &set,
+                   const double step,
+                   const double p_g,
+                   Vector &t)
     {
       const std::size_t n = t.size();
       Ap.resize(n);
       apply(p, Ap);
       ++n_applications;
       std::array<double, 1> p_Ap{{0.}};
-      double                longest = std::numeric_limits<double>::max();
+      double longest = std::numeric_limits<double>::max();
       for (std::size_t i = 0; i < n; ++i)
         {
           p_Ap[0] += p[i] * Ap[i];
@@ -233,7 +241,7 @@ namespace akmon
         }
       if (alpha < longest)
         {
-          Vector                phi = free_gradient(set, t);
+          Vector phi = free_gradient(set, t);
           std::array<double, 1> phi_Ap{{0.}};
           for (std::size_t i = 0; i < n; ++i)
             phi_Ap[0] += phi[i] * Ap[i];
@@ -252,10 +260,10 @@ namespace akmon
       return true;
     }
 
-    const MPI_Comm     communicator;
-    const double       tolerance;
+    const MPI_Comm communicator;
+    const double tolerance;
     const unsigned int limit;
-    unsigned int       n_applications = 0;
-    Vector             g, p, Ap;
+    unsigned int n_applications = 0;
+    Vector g, p, Ap;
   };
 } // namespace akmon

@@ -10,12 +10,12 @@
 namespace akmon
 {
   /**
-   * Finds the partner of every slave node of one contact. In two stages: candidates (bounding boxes, across
-   * ranks, valid while nothing has moved further than half the search radius) and pairs (closest feature
-   * among the candidates, every step).
+   * Finds the partner of every slave node of one contact. In two stages: candidates (bounding
+   * boxes, across ranks, valid while nothing has moved further than half the search radius) and
+   * pairs (closest feature among the candidates, every step).
    *
-   * A node's pair belongs to the node's owner, who gets the master faces it may meet, and their neighbours,
-   * from the other ranks.
+   * A node's pair belongs to the node's owner, who gets the master faces it may meet, and their
+   * neighbours, from the other ranks.
    */
   class SurfaceSearch
   {
@@ -26,8 +26,8 @@ namespace akmon
      */
     SurfaceSearch(const Discretization &discretization,
                   const SurfaceContact &contact,
-                  const unsigned int    interface,
-                  const bool            reversed);
+                  const unsigned int interface,
+                  const bool reversed);
 
     /// Distance over which partners are looked for; length. The same on all ranks.
     double
@@ -36,7 +36,8 @@ namespace akmon
       return search_radius;
     }
 
-    /// Get the master faces near this rank's slaves from their owners (collective). Returns their nodes.
+    /// Get the master faces near this rank's slaves from their owners (collective). Returns their
+    /// nodes.
     std::vector<ContactNodes::Id>
     fetch_master_faces(const ContactNodes &nodes, const NodalVector &x);
 
@@ -44,11 +45,12 @@ namespace akmon
     void
     build_candidates(const ContactNodes &nodes, const ContactNodes::Field &x);
 
-    /// Append the pairs of this rank's slaves in configuration @p x, in the order of global node numbers.
+    /// Append the pairs of this rank's slaves in configuration @p x, in the order of global node
+    /// numbers.
     void
-    find_pairs(const NodalVector &        positions,
+    find_pairs(const NodalVector &positions,
                const ContactNodes::Field &x,
-               std::vector<ContactPair> & pairs) const;
+               std::vector<ContactPair> &pairs) const;
 
     /// Owned and ghost faces of both surfaces.
     const std::vector<BoundaryFace> &
@@ -60,20 +62,20 @@ namespace akmon
   private:
     struct Slave
     {
-      unsigned int     node;   ///< local number
-      unsigned int     number; ///< contact number
+      unsigned int node;   ///< local number
+      unsigned int number; ///< contact number
       ContactNodes::Id id;
-      double           size;            ///< least edge of its faces, initially; length
-      unsigned int     first_face;      ///< in slave_face_list
-      unsigned int     first_candidate; ///< in candidates
+      double size;                  ///< least edge of its faces, initially; length
+      unsigned int first_face;      ///< in slave_face_list
+      unsigned int first_candidate; ///< in candidates
     };
 
     struct FaceMessage
     {
       dealii::types::global_cell_index id;
-      unsigned int                     body;
-      double                           depth; ///< thickness of the cell behind the face; length
-      std::array<ContactNodes::Id, 4>  nodes;
+      unsigned int body;
+      double depth; ///< thickness of the cell behind the face; length
+      std::array<ContactNodes::Id, 4> nodes;
 
       template <class Archive>
       void
@@ -85,15 +87,15 @@ namespace akmon
 
     struct MasterFace
     {
-      unsigned int                body;
-      double                      depth;
+      unsigned int body;
+      double depth;
       std::array<unsigned int, 4> nodes; ///< contact numbers
     };
 
     struct Partner
     {
       unsigned int face; ///< in masters
-      Projection   projection;
+      Projection projection;
     };
 
     void
@@ -105,30 +107,30 @@ namespace akmon
     dealii::Tensor<1, 3>
     slave_normal(const NodalVector &positions, const unsigned int slave) const;
     bool
-    closest_segment(const ContactNodes::Field & x,
-                    const unsigned int          slave,
+    closest_segment(const ContactNodes::Field &x,
+                    const unsigned int slave,
                     const dealii::Tensor<1, 3> &outward,
-                    Partner &                   partner) const;
+                    Partner &partner) const;
     void
-    snap_to_closest_node(const ContactNodes::Field & x,
+    snap_to_closest_node(const ContactNodes::Field &x,
                          const dealii::Tensor<1, 3> &slave,
-                         Partner &                   partner) const;
+                         Partner &partner) const;
     dealii::Tensor<1, 3>
     feature_normal(const ContactNodes::Field &x, const Partner &partner, bool &on_rim) const;
     unsigned int
     faces_sharing(const unsigned int node_a, const unsigned int node_b) const;
 
-    const Discretization &    discretization;
-    const SurfaceContact &    contact;
-    const unsigned int        interface;
-    const bool                reversed;
-    double                    search_radius;
+    const Discretization &discretization;
+    const SurfaceContact &contact;
+    const unsigned int interface;
+    const bool reversed;
+    double search_radius;
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
 
-    std::vector<Slave>        slaves; ///< and one past the end
+    std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list, candidates;
-    std::vector<FaceMessage>  fetched;        ///< sorted by id
-    std::vector<MasterFace>   masters;        ///< in the same order
+    std::vector<FaceMessage> fetched;         ///< sorted by id
+    std::vector<MasterFace> masters;          ///< in the same order
     std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
   };

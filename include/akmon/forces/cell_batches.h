@@ -67,6 +67,7 @@ namespace akmon
     std::vector<std::uint8_t> n_used_lanes; ///< per batch
     LaneArray owned;                        ///< [batch][lane], 1 for cells this rank owns, else 0
     LaneArray state;
-    LaneArray frequencies; ///< [batch][2][lane]: omega^2 as last computed, bound of its growth since
+    LaneArray
+      frequencies; ///< [batch][2][lane]: omega^2 as last computed, bound of its growth since
   };
 } // namespace akmon

@@ -22,12 +22,12 @@ namespace akmon
     alignas(lane_alignment) double buffer[8][3][n_lanes];
     for (unsigned int v = 0; v < 8; ++v)
       for (unsigned int lane = 0; lane < n_lanes; ++lane)
-      {
-        const double *const node = vector + nodes[v][lane];
-        buffer[v][0][lane]       = node[0];
-        buffer[v][1][lane]       = node[1];
-        buffer[v][2][lane]       = node[2];
-      }
+        {
+          const double *const node = vector + nodes[v][lane];
+          buffer[v][0][lane]       = node[0];
+          buffer[v][1][lane]       = node[1];
+          buffer[v][2][lane]       = node[2];
+        }
     for (unsigned int v = 0; v < 8; ++v)
       for (unsigned int c = 0; c < 3; ++c)
         values[v][c] = Lanes::load_aligned(buffer[v][c]);
@@ -48,12 +48,12 @@ namespace akmon
         values[v][c].store_aligned(buffer[v][c]);
     for (unsigned int lane = 0; lane < n_used; ++lane)
       for (unsigned int v = 0; v < 8; ++v)
-      {
-        double *const node = vector + nodes[v][lane];
-        node[0] -= buffer[v][0][lane];
-        node[1] -= buffer[v][1][lane];
-        node[2] -= buffer[v][2][lane];
-      }
+        {
+          double *const node = vector + nodes[v][lane];
+          node[0] -= buffer[v][0][lane];
+          node[1] -= buffer[v][1][lane];
+          node[2] -= buffer[v][2][lane];
+        }
   }
 
 
@@ -68,10 +68,10 @@ namespace akmon
   {
     N y = 1. + (r - 1.) * (1. / 3.);
     for (unsigned int iteration = 0; iteration < 3; ++iteration)
-    {
-      const N cube = y * y * y;
-      y            = y * (cube + 2. * r) / (2. * cube + r);
-    }
+      {
+        const N cube = y * y * y;
+        y            = y * (cube + 2. * r) / (2. * cube + r);
+      }
     return y;
   }
 
@@ -92,17 +92,19 @@ namespace akmon
     N smallest_jacobian;        ///< least det(d x_{n+1} / d xi) over the Gauss points
 
     CellGeometry(const N (&x)[8][3], const N (&dx)[8][3])
-      : end(TrilinearGradients<N>::evaluate(x)), increment(TrilinearGradients<N>::evaluate(dx)),
-        volume_begin(0.), volume_end(0.)
+      : end(TrilinearGradients<N>::evaluate(x))
+      , increment(TrilinearGradients<N>::evaluate(dx))
+      , volume_begin(0.)
+      , volume_end(0.)
     {
       for (unsigned int q = 0; q < n_points; ++q)
-      {
-        const Matrix3<N> J1 = end.at(q), J0 = begin_at(q);
-        const N j1 = determinant(J1, cofactor(J1));
-        volume_end += j1;
-        volume_begin += determinant(J0, cofactor(J0));
-        smallest_jacobian = q == 0 ? j1 : select(j1 < smallest_jacobian, j1, smallest_jacobian);
-      }
+        {
+          const Matrix3<N> J1 = end.at(q), J0 = begin_at(q);
+          const N j1 = determinant(J1, cofactor(J1));
+          volume_end += j1;
+          volume_begin += determinant(J0, cofactor(J0));
+          smallest_jacobian = q == 0 ? j1 : select(j1 < smallest_jacobian, j1, smallest_jacobian);
+        }
     }
 
     /// d x_n / d xi at Gauss point q.
@@ -146,47 +148,47 @@ namespace akmon
     constexpr unsigned int n_points     = CellBatches::n_points;
 
     const Lanes mean_J = cell.volume_end / cell.volume_begin;
-    Lanes       pressure_volume(0.), internal_work(0.), plastic_work(0.), strain_squared(0.);
+    Lanes pressure_volume(0.), internal_work(0.), plastic_work(0.), strain_squared(0.);
     for (unsigned int q = 0; q < n_points; ++q)
-    {
-      double *const point = state + q * n_components * n_lanes;
-
-      const Matrix3<Lanes> J0 = cell.begin_at(q), J1 = cell.end.at(q);
-      const Matrix3<Lanes> cofactors_J0 = cofactor(J0);
-      const Lanes j0                    = determinant(J0, cofactors_J0);
-      const Lanes j1                    = determinant(J1, cofactor(J1));
-
-      Matrix3<Lanes> H = times_inverse(cell.increment.at(q), cofactors_J0, Lanes(1. / j0));
-      Lanes J          = j1 / j0;
-      if constexpr (mean_dilatation)
       {
-        const Lanes scale = cube_root_near_one(Lanes(mean_J / J));
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = 0; j < 3; ++j)
-            H(i, j) = i == j ? scale * H(i, j) + (scale - 1.) : scale * H(i, j);
-        J = mean_J;
+        double *const point = state + q * n_components * n_lanes;
+
+        const Matrix3<Lanes> J0 = cell.begin_at(q), J1 = cell.end.at(q);
+        const Matrix3<Lanes> cofactors_J0 = cofactor(J0);
+        const Lanes j0                    = determinant(J0, cofactors_J0);
+        const Lanes j1                    = determinant(J1, cofactor(J1));
+
+        Matrix3<Lanes> H = times_inverse(cell.increment.at(q), cofactors_J0, Lanes(1. / j0));
+        Lanes J          = j1 / j0;
+        if constexpr (mean_dilatation)
+          {
+            const Lanes scale = cube_root_near_one(Lanes(mean_J / J));
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+                H(i, j) = i == j ? scale * H(i, j) + (scale - 1.) : scale * H(i, j);
+            J = mean_J;
+          }
+
+        Symmetric3<Lanes> stress, stress_before;
+        for (unsigned int c = 0; c < 6; ++c)
+          stress_before[c] = stress[c] = Lanes::load_aligned(point + c * n_lanes);
+        Lanes internals[Law::n_internals + 1]; // one more than used: no array has length zero
+        for (unsigned int i = 0; i < Law::n_internals; ++i)
+          internals[i] = Lanes::load_aligned(point + (6 + i) * n_lanes);
+
+        const auto increment = arc_end_update(law, H, J, stress, internals);
+
+        for (unsigned int c = 0; c < 6; ++c)
+          stress[c].store_aligned(point + c * n_lanes);
+        for (unsigned int i = 0; i < Law::n_internals; ++i)
+          internals[i].store_aligned(point + (6 + i) * n_lanes);
+
+        pressure_volume += j1 * trace(stress) * (1. / 3.);
+        internal_work += 0.5 * (j0 * contract(stress_before, increment.strain) +
+                                j1 * contract(stress, increment.strain));
+        plastic_work += j1 * increment.plastic_work;
+        strain_squared = maximum(strain_squared, contract(increment.strain, increment.strain));
       }
-
-      Symmetric3<Lanes> stress, stress_before;
-      for (unsigned int c = 0; c < 6; ++c)
-        stress_before[c] = stress[c] = Lanes::load_aligned(point + c * n_lanes);
-      Lanes internals[Law::n_internals + 1]; // one more than used: no array has length zero
-      for (unsigned int i = 0; i < Law::n_internals; ++i)
-        internals[i] = Lanes::load_aligned(point + (6 + i) * n_lanes);
-
-      const auto increment = arc_end_update(law, H, J, stress, internals);
-
-      for (unsigned int c = 0; c < 6; ++c)
-        stress[c].store_aligned(point + c * n_lanes);
-      for (unsigned int i = 0; i < Law::n_internals; ++i)
-        internals[i].store_aligned(point + (6 + i) * n_lanes);
-
-      pressure_volume += j1 * trace(stress) * (1. / 3.);
-      internal_work += 0.5 * (j0 * contract(stress_before, increment.strain) +
-                              j1 * contract(stress, increment.strain));
-      plastic_work += j1 * increment.plastic_work;
-      strain_squared = maximum(strain_squared, contract(increment.strain, increment.strain));
-    }
     sums.internal_work += owned * internal_work;
     sums.plastic_work += owned * plastic_work;
 
@@ -194,15 +196,15 @@ namespace akmon
     TrilinearGradients<Lanes> weights;
     weights.clear();
     for (unsigned int q = 0; q < n_points; ++q)
-    {
-      const double *const point = state + q * n_components * n_lanes;
-      Symmetric3<Lanes> stress;
-      for (unsigned int c = 0; c < 6; ++c)
-        stress[c] = Lanes::load_aligned(point + c * n_lanes);
-      if constexpr (mean_dilatation)
-        stress = add_to_diagonal(stress, Lanes(mean_pressure - trace(stress) * (1. / 3.)));
-      weights.add(q, stress * cofactor(cell.end.at(q)));
-    }
+      {
+        const double *const point = state + q * n_components * n_lanes;
+        Symmetric3<Lanes> stress;
+        for (unsigned int c = 0; c < 6; ++c)
+          stress[c] = Lanes::load_aligned(point + c * n_lanes);
+        if constexpr (mean_dilatation)
+          stress = add_to_diagonal(stress, Lanes(mean_pressure - trace(stress) * (1. / 3.)));
+        weights.add(q, stress * cofactor(cell.end.at(q)));
+      }
     weights.integrate(force);
     return strain_squared;
   }

@@ -50,7 +50,8 @@ namespace akmon
       return frequency_squared;
     }
 
-    /// The omega_max^2 of all ranks that sets the step: cells far below it need no tight bound; 1/time^2.
+    /// The omega_max^2 of all ranks that sets the step: cells far below it need no tight bound;
+    /// 1/time^2.
     void
     govern(const double largest_of_all_ranks)
     {
@@ -94,15 +95,15 @@ namespace akmon
 
   private:
     void
-    calibrate(const NodalVector &           x,
-              CellBatches &                 batches,
-              const unsigned int            batch,
+    calibrate(const NodalVector &x,
+              CellBatches &batches,
+              const unsigned int batch,
               const Lanes::batch_bool_type &wanted);
     Lanes::batch_bool_type
-    bound_frequency(const Lanes &      strain_squared,
-                    CellBatches &      batches,
+    bound_frequency(const Lanes &strain_squared,
+                    CellBatches &batches,
                     const unsigned int batch,
-                    Lanes &            largest) const;
+                    Lanes &largest) const;
     void
     report_fault(const NodalVector &x,
                  const CellBatches &batches,
@@ -121,8 +122,8 @@ namespace akmon
     std::vector<CellBatches> body_batches;
     std::vector<std::pair<unsigned int, Lanes::batch_bool_type>>
       to_calibrate; ///< batches and their cells whose bound is too loose, of the body in work
-    double frequency_squared           = 0.;
-    double governing_frequency_squared = 0.;
+    double frequency_squared            = 0.;
+    double governing_frequency_squared  = 0.;
     std::size_t initially_limiting_cell = 0;
     double work                         = 0.;
     double dissipated                   = 0.;

@@ -44,16 +44,16 @@ namespace akmon
       TrilinearGradients g;
       for (unsigned int d = 0; d < 3; ++d)
         for (unsigned int c = 0; c < 3; ++c)
-        {
-          N difference[4];
-          for (unsigned int p = 0; p < 4; ++p)
-            difference[p] = u[lower_node(d, p) + (1u << d)][c] - u[lower_node(d, p)][c];
-          N *const values[4] = {&g.value[d][0][c],
-                                &g.value[d][1][c],
-                                &g.value[d][2][c],
-                                &g.value[d][3][c]};
-          interpolate(difference, values);
-        }
+          {
+            N difference[4];
+            for (unsigned int p = 0; p < 4; ++p)
+              difference[p] = u[lower_node(d, p) + (1u << d)][c] - u[lower_node(d, p)][c];
+            N *const values[4] = {&g.value[d][0][c],
+                                  &g.value[d][1][c],
+                                  &g.value[d][2][c],
+                                  &g.value[d][3][c]};
+            interpolate(difference, values);
+          }
       return g;
     }
 
@@ -65,22 +65,25 @@ namespace akmon
     integrate(N (&f)[8][3]) const
     {
       for (unsigned int c = 0; c < 3; ++c)
-      {
-        for (unsigned int node = 0; node < 8; ++node)
-          f[node][c] = N(0.);
-        for (unsigned int d = 0; d < 3; ++d)
         {
-          const N at_points[4] = {value[d][0][c], value[d][1][c], value[d][2][c], value[d][3][c]};
-          N on_edges[4];
-          N *const edges[4] = {&on_edges[0], &on_edges[1], &on_edges[2], &on_edges[3]};
-          interpolate(at_points, edges);
-          for (unsigned int p = 0; p < 4; ++p)
-          {
-            f[lower_node(d, p)][c] -= on_edges[p];
-            f[lower_node(d, p) + (1u << d)][c] += on_edges[p];
-          }
+          for (unsigned int node = 0; node < 8; ++node)
+            f[node][c] = N(0.);
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              const N at_points[4] = {value[d][0][c],
+                                      value[d][1][c],
+                                      value[d][2][c],
+                                      value[d][3][c]};
+              N on_edges[4];
+              N *const edges[4] = {&on_edges[0], &on_edges[1], &on_edges[2], &on_edges[3]};
+              interpolate(at_points, edges);
+              for (unsigned int p = 0; p < 4; ++p)
+                {
+                  f[lower_node(d, p)][c] -= on_edges[p];
+                  f[lower_node(d, p) + (1u << d)][c] += on_edges[p];
+                }
+            }
         }
-      }
     }
 
     void
@@ -143,8 +146,8 @@ namespace akmon
 
 
   /**
-   * Lumped masses of a cell: row sums of its consistent mass matrix, m_a = int rho N_a dOmega with 2 x 2 x 2
-   * Gauss points. Positive for any valid cell.
+   * Lumped masses of a cell: row sums of its consistent mass matrix, m_a = int rho N_a dOmega with
+   * 2 x 2 x 2 Gauss points. Positive for any valid cell.
    * @param X        initial positions [node][component], length
    * @param density  rho_0, mass/volume
    * @param mass     the cell's share of the nodal masses, mass
@@ -159,7 +162,7 @@ namespace akmon
     for (unsigned int q = 0; q < 8; ++q)
       {
         const Matrix3<N> J = gradients.at(q);
-        const N          j = determinant(J, cofactor(J));
+        const N j          = determinant(J, cofactor(J));
         for (unsigned int v = 0; v < 8; ++v)
           {
             double shape_value = density;

@@ -67,10 +67,10 @@ namespace akmon
       const N deviator = 1. - 3. * elasticity.mu * d_eps / maximum(q, N(tiny));
 
       for (unsigned int i = 0; i < 3; ++i)
-      {
-        stress[i]     = deviator * (stress[i] - mean) + mean;
-        stress[i + 3] = deviator * stress[i + 3];
-      }
+        {
+          stress[i]     = deviator * (stress[i] - mean) + mean;
+          stress[i + 3] = deviator * stress[i + 3];
+        }
       internals[0] += d_eps;
       return (y + 0.5 * hardening_modulus * d_eps) * d_eps;
     }

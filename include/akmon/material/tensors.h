@@ -81,11 +81,11 @@ namespace akmon
     Matrix3<N> result;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
-      {
-        const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
-        const unsigned int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
-        result(i, j) = a(i1, j1) * a(i2, j2) - a(i1, j2) * a(i2, j1);
-      }
+        {
+          const unsigned int i1 = (i + 1) % 3, i2 = (i + 2) % 3;
+          const unsigned int j1 = (j + 1) % 3, j2 = (j + 2) % 3;
+          result(i, j) = a(i1, j1) * a(i2, j2) - a(i1, j2) * a(i2, j1);
+        }
     return result;
   }
 
@@ -121,11 +121,11 @@ namespace akmon
   {
     Matrix3<N> result;
     for (unsigned int i = 0; i < 3; ++i)
-    {
-      result(i, 0) = a(i, 0) * s[0] + a(i, 1) * s[3] + a(i, 2) * s[4];
-      result(i, 1) = a(i, 0) * s[3] + a(i, 1) * s[1] + a(i, 2) * s[5];
-      result(i, 2) = a(i, 0) * s[4] + a(i, 1) * s[5] + a(i, 2) * s[2];
-    }
+      {
+        result(i, 0) = a(i, 0) * s[0] + a(i, 1) * s[3] + a(i, 2) * s[4];
+        result(i, 1) = a(i, 0) * s[3] + a(i, 1) * s[1] + a(i, 2) * s[5];
+        result(i, 2) = a(i, 0) * s[4] + a(i, 1) * s[5] + a(i, 2) * s[2];
+      }
     return result;
   }
 
@@ -137,11 +137,11 @@ namespace akmon
   {
     Matrix3<N> result;
     for (unsigned int j = 0; j < 3; ++j)
-    {
-      result(0, j) = s[0] * a(0, j) + s[3] * a(1, j) + s[4] * a(2, j);
-      result(1, j) = s[3] * a(0, j) + s[1] * a(1, j) + s[5] * a(2, j);
-      result(2, j) = s[4] * a(0, j) + s[5] * a(1, j) + s[2] * a(2, j);
-    }
+      {
+        result(0, j) = s[0] * a(0, j) + s[3] * a(1, j) + s[4] * a(2, j);
+        result(1, j) = s[3] * a(0, j) + s[1] * a(1, j) + s[5] * a(2, j);
+        result(2, j) = s[4] * a(0, j) + s[5] * a(1, j) + s[2] * a(2, j);
+      }
     return result;
   }
 

@@ -90,8 +90,8 @@ namespace akmon
       return materials[body_material[body]];
     }
 
-    /// Boundary ids of a named part "BODY:PART" ("BODY": all of it; "all": all bodies); throws InputError naming
-    /// section and key.
+    /// Boundary ids of a named part "BODY:PART" ("BODY": all of it; "all": all bodies); throws
+    /// InputError naming section and key.
     std::set<dealii::types::boundary_id>
     boundary_ids(const std::string &section, const std::string &key, const std::string &part) const;
 

@@ -99,12 +99,15 @@ namespace akmon
   // The stages are timed several times per step: these stay inline.
 
   inline StageTimer::Stage::Stage(StageTimer &timer, const std::size_t index)
-    : timer(&timer), index(index)
+    : timer(&timer)
+    , index(index)
   {
   }
 
 
-  inline StageTimer::Scope::Scope(const Stage stage) : stage(stage), start(Clock::now())
+  inline StageTimer::Scope::Scope(const Stage stage)
+    : stage(stage)
+    , start(Clock::now())
   {
     stage.timer->begin(stage.index);
   }

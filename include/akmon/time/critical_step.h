@@ -8,8 +8,8 @@
 namespace akmon
 {
   /**
-   * Largest eigenvalue omega^2 of the free cell, M^{-1} K u = omega^2 u with lumped nodal masses, by a few
-   * steps of Lanczos' method. No assembled frequency exceeds the largest cell frequency.
+   * Largest eigenvalue omega^2 of the free cell, M^{-1} K u = omega^2 u with lumped nodal masses,
+   * by a few steps of Lanczos' method. No assembled frequency exceeds the largest cell frequency.
    *
    * @param x        node positions [node][component], length
    * @param mass     the cell's share of the nodal masses [node]
@@ -19,13 +19,13 @@ namespace akmon
   N
   largest_eigenvalue(const N (&x)[8][3],
                      const N (&mass)[8],
-                     const Elasticity &    elasticity,
+                     const Elasticity &elasticity,
                      const CellIntegration integration);
 
   /**
-   * Factor by which omega of a cell may have grown in a step with the strain increment e = E_mid. For a
-   * brick omega^2 goes with V/a^2, so that a stretch along the axes changes omega by
-   * max (-e_i + e_j + e_k)/2 <= (sqrt 3/2)|e|.
+   * Factor by which omega of a cell may have grown in a step with the strain increment e = E_mid.
+   * For a brick omega^2 goes with V/a^2, so that a stretch along the axes changes omega by max
+   * (-e_i + e_j + e_k)/2 <= (sqrt 3/2)|e|.
    * @param strain_squared  largest e : e over the Gauss points
    */
   template <typename N>

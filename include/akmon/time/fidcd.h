@@ -57,8 +57,8 @@ namespace akmon
      *
      *     (1/2) m (v*^2 - dt dt' a_n^2/4),   v* = (dt' v_{n-1/2} + dt v_{n+1/2})/(dt + dt'),
      *
-     * which is (1/2) m v_{n-1/2} . v_{n+1/2} for equal steps. This form makes the change of kinetic energy
-     * over any number of equal steps exactly the work of the forces by the trapezoidal rule,
+     * which is (1/2) m v_{n-1/2} . v_{n+1/2} for equal steps. This form makes the change of kinetic
+     * energy over any number of equal steps exactly the work of the forces by the trapezoidal rule,
      * sum (F_n + F_{n+1})/2 . dx_n, whatever the forces do.
      */
     double

@@ -276,7 +276,9 @@ end
   class CaseFiles : public testing::Test
   {
   protected:
-    CaseFiles() : file(scratch.path + "/case.prm"), output(scratch.path + "/results")
+    CaseFiles()
+      : file(scratch.path + "/case.prm")
+      , output(scratch.path + "/results")
     {
       write_text(scratch.path + "/tetrahedron.msh", mesh_of_one_tetrahedron);
       // Set by this process's own MPI; with it, mpirun takes itself for a single process.
@@ -299,24 +301,24 @@ end
       edits.emplace_back("set Output directory = output/two_bars",
                          "set Output directory = " + output);
       for (const auto &[from, to] : edits)
-      {
-        const auto at = text.find(from);
-        if (at == std::string::npos)
-          throw std::runtime_error("two_bars.prm has no '" + from + "'");
-        text.replace(at, from.size(), to);
-      }
+        {
+          const auto at = text.find(from);
+          if (at == std::string::npos)
+            throw std::runtime_error("two_bars.prm has no '" + from + "'");
+          text.replace(at, from.size(), to);
+        }
       for (const auto &section : variant.without)
-      {
-        const auto begin = text.find("\nsubsection " + section);
-        text.erase(begin, text.find("\nend\n", begin) + 5 - begin);
-      }
+        {
+          const auto begin = text.find("\nsubsection " + section);
+          text.erase(begin, text.find("\nend\n", begin) + 5 - begin);
+        }
       write_text(file, text + variant.appended);
       std::vector<std::string> arguments{file};
       for (const auto &entry : variant.overrides)
-      {
-        arguments.emplace_back("--set");
-        arguments.push_back(in_scratch(entry));
-      }
+        {
+          arguments.emplace_back("--set");
+          arguments.push_back(in_scratch(entry));
+        }
       return run_program(arguments, n_ranks);
     }
 
@@ -423,17 +425,18 @@ end
       for (const char *const name :
            {"unknown_key", "unknown_boundary", "overlap_by_three_lengths", "probe_outside"})
         if (variant.name == name)
-        {
-          EXPECT_EQ(run(variant).status, 1);
-        }
+          {
+            EXPECT_EQ(run(variant).status, 1);
+          }
 
     EXPECT_EQ(fs::last_write_time(output), time);
     std::size_t n_entries = 0;
     for (const auto &entry : fs::directory_iterator(output))
-    {
-      ++n_entries;
-      EXPECT_EQ(read_text(entry.path()), "from the last run: " + entry.path().filename().string());
-    }
+      {
+        ++n_entries;
+        EXPECT_EQ(read_text(entry.path()),
+                  "from the last run: " + entry.path().filename().string());
+      }
     EXPECT_EQ(n_entries, files.size());
   }
 
@@ -452,12 +455,12 @@ end
                                      "probe_outside",
                                      "function_that_cannot_be_read"})
         if (variant.name == name)
-        {
-          SCOPED_TRACE(name);
-          const auto on_one = run(variant), on_two = run(variant, 2);
-          EXPECT_EQ(on_two.status, 1);
-          EXPECT_EQ(error_line(on_two.output), error_line(on_one.output));
-          EXPECT_FALSE(fs::exists(output));
-        }
+          {
+            SCOPED_TRACE(name);
+            const auto on_one = run(variant), on_two = run(variant, 2);
+            EXPECT_EQ(on_two.status, 1);
+            EXPECT_EQ(error_line(on_two.output), error_line(on_one.output));
+            EXPECT_FALSE(fs::exists(output));
+          }
   }
 } // namespace

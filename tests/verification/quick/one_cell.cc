@@ -72,9 +72,11 @@ namespace
     explicit DrivenCell(const CellIntegration integration)
       : discretization({body_of(box(Vector({1., .8, .6})), integration)},
                        {elastic()},
-                       MPI_COMM_SELF),
-        forces(discretization), x(discretization.reference), dx(discretization.make_vector()),
-        force(discretization.make_vector())
+                       MPI_COMM_SELF)
+      , forces(discretization)
+      , x(discretization.reference)
+      , dx(discretization.make_vector())
+      , force(discretization.make_vector())
     {
     }
 
@@ -82,14 +84,14 @@ namespace
     go_to(const Matrix &F)
     {
       for (unsigned int node = 0; node < 8; ++node)
-      {
-        const Vector target = F * at_node(discretization.reference, node);
-        for (unsigned int d = 0; d < 3; ++d)
         {
-          dx.local_element(3 * node + d) = target[d] - x.local_element(3 * node + d);
-          x.local_element(3 * node + d)  = target[d];
+          const Vector target = F * at_node(discretization.reference, node);
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              dx.local_element(3 * node + d) = target[d] - x.local_element(3 * node + d);
+              x.local_element(3 * node + d)  = target[d];
+            }
         }
-      }
       force = 0.;
       forces.update(x, dx, force);
       EXPECT_FALSE(forces.fault().occurred());
@@ -179,44 +181,45 @@ namespace
   {
     // Each step is a finite rotation about an oblique axis, by 1 to 120 degrees.
     for (const double degrees : {1., 10., 45., 120.})
-    {
-      DrivenCell cell(GetParam());
-      const Matrix F({{1.1, .2, -.05}, {.03, .9, .1}, {-.02, .04, 1.05}});
-      cell.go_to(F);
-      const Matrix sigma = cell.stress(0);
-      ASSERT_GT(sigma.norm(), 50.);
-      EXPECT_LE(cell.error(sigma), 1e-12 * sigma.norm());
-      const double work = cell.forces.internal_work();
-      for (unsigned int step = 1; step <= 12; ++step)
       {
-        const Matrix R = rotation(step * degrees * pi / 180.);
-        cell.go_to(R * F);
-        const Matrix turned = R * sigma * transpose(R);
-        ASSERT_LE(cell.error(turned), 1e-12 * sigma.norm()) << degrees << " " << step;
-        for (unsigned int node = 0; node < 8; ++node)
-          ASSERT_LE((at_node(cell.force, node) - cell.nodal_force(node, R * F, turned)).norm(),
-                    1e-12 * sigma.norm());
+        DrivenCell cell(GetParam());
+        const Matrix F({{1.1, .2, -.05}, {.03, .9, .1}, {-.02, .04, 1.05}});
+        cell.go_to(F);
+        const Matrix sigma = cell.stress(0);
+        ASSERT_GT(sigma.norm(), 50.);
+        EXPECT_LE(cell.error(sigma), 1e-12 * sigma.norm());
+        const double work = cell.forces.internal_work();
+        for (unsigned int step = 1; step <= 12; ++step)
+          {
+            const Matrix R = rotation(step * degrees * pi / 180.);
+            cell.go_to(R * F);
+            const Matrix turned = R * sigma * transpose(R);
+            ASSERT_LE(cell.error(turned), 1e-12 * sigma.norm()) << degrees << " " << step;
+            for (unsigned int node = 0; node < 8; ++node)
+              ASSERT_LE((at_node(cell.force, node) - cell.nodal_force(node, R * F, turned)).norm(),
+                        1e-12 * sigma.norm());
+          }
+        EXPECT_NEAR(cell.forces.internal_work(), work, 1e-12 * work);
       }
-      EXPECT_NEAR(cell.forces.internal_work(), work, 1e-12 * work);
-    }
   }
 
 
   TEST_P(OneCell, SimpleShearAndDilatationAreExactInAnyNumberOfSteps)
   {
     for (const unsigned int n : {1, 4, 10, 100})
-    {
-      // sigma12 = G g, sigma11 = G g^2: 800 and 1600 at g = 2.
-      DrivenCell sheared(GetParam());
-      sheared.follow([](const double t) { return shear(2. * t); }, n);
-      EXPECT_LE(sheared.error(Matrix({{1600., 800., 0.}, {800., 0., 0.}, {0., 0., 0.}})), 1e-9)
-        << n;
-      // 3 K (1 - 1/l) = 666.666667 at l = 1.5.
-      DrivenCell dilated(GetParam());
-      dilated.follow([](const double t) { return diagonal(1. + .5 * t, 1. + .5 * t, 1. + .5 * t); },
-                     n);
-      EXPECT_LE(dilated.error(diagonal(2000. / 3., 2000. / 3., 2000. / 3.)), 1e-9) << n;
-    }
+      {
+        // sigma12 = G g, sigma11 = G g^2: 800 and 1600 at g = 2.
+        DrivenCell sheared(GetParam());
+        sheared.follow([](const double t) { return shear(2. * t); }, n);
+        EXPECT_LE(sheared.error(Matrix({{1600., 800., 0.}, {800., 0., 0.}, {0., 0., 0.}})), 1e-9)
+          << n;
+        // 3 K (1 - 1/l) = 666.666667 at l = 1.5.
+        DrivenCell dilated(GetParam());
+        dilated
+          .follow([](const double t) { return diagonal(1. + .5 * t, 1. + .5 * t, 1. + .5 * t); },
+                  n);
+        EXPECT_LE(dilated.error(diagonal(2000. / 3., 2000. / 3., 2000. / 3.)), 1e-9) << n;
+      }
   }
 
 
@@ -234,13 +237,13 @@ namespace
                               Known{.6, 1, -450.},
                               Known{.6, 4, -477.846574},
                               Known{.6, 10, -479.652191}})
-    {
-      DrivenCell cell(GetParam());
-      cell.follow([&](const double t) { return diagonal(1. + (known.stretch - 1.) * t, 1., 1.); },
-                  known.n);
-      const double lateral = 400. * (1. - 1. / known.stretch); // lambda (1 - 1/l), for any steps
-      EXPECT_LE(cell.error(diagonal(known.sigma_11, lateral, lateral)), 1e-6) << known.n;
-    }
+      {
+        DrivenCell cell(GetParam());
+        cell.follow([&](const double t) { return diagonal(1. + (known.stretch - 1.) * t, 1., 1.); },
+                    known.n);
+        const double lateral = 400. * (1. - 1. / known.stretch); // lambda (1 - 1/l), for any steps
+        EXPECT_LE(cell.error(diagonal(known.sigma_11, lateral, lateral)), 1e-6) << known.n;
+      }
     const auto error = [](const unsigned int n) {
       DrivenCell cell(GetParam());
       cell.follow([](const double t) { return diagonal(1. + .5 * t, 1., 1.); }, n);
@@ -265,13 +268,13 @@ namespace
        {4, {{11.356612, 370.222911, 168.378820}}},
        {10, {{11.916270, 360.069013, 171.935753}}}};
     for (const auto &[n, sigma] : known)
-    {
-      DrivenCell cell(GetParam());
-      cell.follow(path, n);
-      for (unsigned int q = 0; q < 8; ++q)
-        for (unsigned int d = 0; d < 3; ++d)
-          EXPECT_NEAR(cell.stress(q)[d][d], sigma[d], 1e-6) << n;
-    }
+      {
+        DrivenCell cell(GetParam());
+        cell.follow(path, n);
+        for (unsigned int q = 0; q < 8; ++q)
+          for (unsigned int d = 0; d < 3; ++d)
+            EXPECT_NEAR(cell.stress(q)[d][d], sigma[d], 1e-6) << n;
+      }
     const auto error = [&](const unsigned int n) {
       DrivenCell cell(GetParam());
       cell.follow(path, n);
@@ -307,13 +310,13 @@ namespace
     };
     double sum = 0.;
     for (const auto &face : discretization.faces_on(discretization.boundary_ids("", "", "cell")))
-    {
-      std::array<Vector, 4> p;
-      for (unsigned int k = 0; k < 4; ++k)
-        p[k] = at_node(discretization.reference, face.nodes[k]);
-      sum += 0.5 * (under(p[0], p[1], p[2]) + under(p[0], p[2], p[3]) + under(p[0], p[1], p[3]) +
-                    under(p[1], p[2], p[3]));
-    }
+      {
+        std::array<Vector, 4> p;
+        for (unsigned int k = 0; k < 4; ++k)
+          p[k] = at_node(discretization.reference, face.nodes[k]);
+        sum += 0.5 * (under(p[0], p[1], p[2]) + under(p[0], p[2], p[3]) + under(p[0], p[1], p[3]) +
+                      under(p[1], p[2], p[3]));
+      }
     return sum;
   }
 
@@ -323,10 +326,10 @@ namespace
   {
     double sum = 0.;
     for (const double m : discretization.mass)
-    {
-      EXPECT_GT(m, 0.);
-      sum += m;
-    }
+      {
+        EXPECT_GT(m, 0.);
+        sum += m;
+      }
     return sum;
   }
 
@@ -377,29 +380,29 @@ namespace
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         for (unsigned int k = 0; k < 3; ++k)
-        {
-          const double xi[3] = {at[i], at[j], at[k]};
-          Matrix J;
-          std::array<double, 8> N;
-          for (unsigned int v = 0; v < 8; ++v)
           {
-            double f[3], s[3];
-            for (unsigned int d = 0; d < 3; ++d)
-            {
-              f[d] = (v >> d) & 1 ? xi[d] : 1. - xi[d];
-              s[d] = (v >> d) & 1 ? 1. : -1.;
-            }
-            N[v] = f[0] * f[1] * f[2];
-            for (unsigned int c = 0; c < 3; ++c)
-            {
-              J[c][0] += p[v][c] * s[0] * f[1] * f[2];
-              J[c][1] += p[v][c] * f[0] * s[1] * f[2];
-              J[c][2] += p[v][c] * f[0] * f[1] * s[2];
-            }
+            const double xi[3] = {at[i], at[j], at[k]};
+            Matrix J;
+            std::array<double, 8> N;
+            for (unsigned int v = 0; v < 8; ++v)
+              {
+                double f[3], s[3];
+                for (unsigned int d = 0; d < 3; ++d)
+                  {
+                    f[d] = (v >> d) & 1 ? xi[d] : 1. - xi[d];
+                    s[d] = (v >> d) & 1 ? 1. : -1.;
+                  }
+                N[v] = f[0] * f[1] * f[2];
+                for (unsigned int c = 0; c < 3; ++c)
+                  {
+                    J[c][0] += p[v][c] * s[0] * f[1] * f[2];
+                    J[c][1] += p[v][c] * f[0] * s[1] * f[2];
+                    J[c][2] += p[v][c] * f[0] * f[1] * s[2];
+                  }
+              }
+            for (unsigned int v = 0; v < 8; ++v)
+              expected[v] += 3. * weight[i] * weight[j] * weight[k] * N[v] * determinant(J);
           }
-          for (unsigned int v = 0; v < 8; ++v)
-            expected[v] += 3. * weight[i] * weight[j] * weight[k] * N[v] * determinant(J);
-        }
     for (unsigned int v = 0; v < 8; ++v)
       EXPECT_NEAR(cell.mass[cell.cells[0].nodes[v]], expected[v], 1e-14);
   }
@@ -436,37 +439,37 @@ namespace
   TEST(FreeFlight, KeepsMomentaAndEnergy)
   {
     for (const char *const integration : {"full", "mean dilatation"})
-    {
-      const Table history = run_case(shipped("one_cell"),
-                                     {std::string("Bodies/cell/Integration=") + integration});
-      ASSERT_GT(history.n_rows(), 1000u);
-      // Lumped inertia of a brick: m/4 (b^2 + c^2) about x.
-      const std::array<double, 3> velocity = {{.5, -.3, .2}};
-      const std::array<double, 3> spin = {{.6 * (.64 + .36), .8 * (1. + .36), 1.2 * (1. + .64)}};
-      const char axis[]                = {'x', 'y', 'z'};
-      double turned = 0., drift = 0., energy = 0., strain = 0.;
-      for (std::size_t i = 0; i < history.n_rows(); ++i)
       {
-        for (unsigned int d = 0; d < 3; ++d)
-        {
-          drift  = std::max(drift,
-                           std::abs(history[std::string("momentum_") + axis[d]][i] -
-                                    cell_mass * velocity[d]));
-          turned = std::max(turned,
-                            std::abs(history[std::string("angular_momentum_") + axis[d]][i] -
-                                     cell_mass / 4. * spin[d]));
-        }
-        energy = std::max(energy, std::abs(history["energy_error"][i]));
-        strain = std::max(strain, history["strain_energy"][i]);
+        const Table history = run_case(shipped("one_cell"),
+                                       {std::string("Bodies/cell/Integration=") + integration});
+        ASSERT_GT(history.n_rows(), 1000u);
+        // Lumped inertia of a brick: m/4 (b^2 + c^2) about x.
+        const std::array<double, 3> velocity = {{.5, -.3, .2}};
+        const std::array<double, 3> spin = {{.6 * (.64 + .36), .8 * (1. + .36), 1.2 * (1. + .64)}};
+        const char axis[]                = {'x', 'y', 'z'};
+        double turned = 0., drift = 0., energy = 0., strain = 0.;
+        for (std::size_t i = 0; i < history.n_rows(); ++i)
+          {
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                drift  = std::max(drift,
+                                 std::abs(history[std::string("momentum_") + axis[d]][i] -
+                                          cell_mass * velocity[d]));
+                turned = std::max(turned,
+                                  std::abs(history[std::string("angular_momentum_") + axis[d]][i] -
+                                           cell_mass / 4. * spin[d]));
+              }
+            energy = std::max(energy, std::abs(history["energy_error"][i]));
+            strain = std::max(strain, history["strain_energy"][i]);
+          }
+        report("linear momentum, largest change", drift);
+        report("angular momentum, largest change", turned);
+        report("energy error", energy);
+        EXPECT_LE(drift, 1e-12);
+        EXPECT_LE(turned, 1e-10);
+        EXPECT_LE(energy, 1e-3);
+        EXPECT_GT(strain, 0.); // it does strain
       }
-      report("linear momentum, largest change", drift);
-      report("angular momentum, largest change", turned);
-      report("energy error", energy);
-      EXPECT_LE(drift, 1e-12);
-      EXPECT_LE(turned, 1e-10);
-      EXPECT_LE(energy, 1e-3);
-      EXPECT_GT(strain, 0.); // it does strain
-    }
   }
 
 
@@ -479,19 +482,19 @@ namespace
     const std::array<double, 3> g = {{1., -2., -9.81}}, v = {{.5, -.3, .2}};
     const char axis[] = {'x', 'y', 'z'};
     for (std::size_t i = 0; i < history.n_rows(); ++i)
-    {
-      const double t = history["time"][i];
-      for (unsigned int d = 0; d < 3; ++d)
       {
-        ASSERT_NEAR(history[std::string("corner.displacement_") + axis[d]][i],
-                    v[d] * t + .5 * g[d] * t * t,
-                    1e-11);
-        ASSERT_NEAR(history[std::string("momentum_") + axis[d]][i],
-                    cell_mass * (v[d] + g[d] * t),
-                    1e-11);
+        const double t = history["time"][i];
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            ASSERT_NEAR(history[std::string("corner.displacement_") + axis[d]][i],
+                        v[d] * t + .5 * g[d] * t * t,
+                        1e-11);
+            ASSERT_NEAR(history[std::string("momentum_") + axis[d]][i],
+                        cell_mass * (v[d] + g[d] * t),
+                        1e-11);
+          }
+        ASSERT_LE(std::abs(history["energy_error"][i]), 1e-12);
+        ASSERT_NEAR(history["strain_energy"][i], 0., 1e-12);
       }
-      ASSERT_LE(std::abs(history["energy_error"][i]), 1e-12);
-      ASSERT_NEAR(history["strain_energy"][i], 0., 1e-12);
-    }
   }
 } // namespace

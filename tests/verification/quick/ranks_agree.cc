@@ -104,43 +104,43 @@ namespace
     const Table one = run_case_on_ranks(shipped(GetParam().name), 1);
     ASSERT_GT(largest(one["interface.force_x"]), 0.);
     for (const unsigned int n_ranks : {2u, 3u})
-    {
-      const Table several = run_case_on_ranks(shipped(GetParam().name), n_ranks);
-      ASSERT_EQ(several.columns(), one.columns());
-      ASSERT_EQ(several.n_rows(), one.n_rows());
-
-      unsigned int identical = 0;
-      double worst           = 0.;
-      for (const auto &column : one.columns())
       {
-        const auto &a = one[column], &b = several[column];
-        identical += a == b;
-        double difference     = 0.;
-        std::size_t first_row = a.size();
-        for (std::size_t i = 0; i < a.size(); ++i)
-          if (a[i] != b[i])
-          {
-            first_row  = std::min(first_row, i);
-            difference = std::max(difference, std::abs(a[i] - b[i]));
-          }
-        if (first_row == a.size())
-          continue;
-        const double relative = difference / scale(one, column, GetParam());
-        EXPECT_LE(relative, accuracy) << column << " on " << n_ranks << " ranks";
-        worst = std::max(worst, relative);
+        const Table several = run_case_on_ranks(shipped(GetParam().name), n_ranks);
+        ASSERT_EQ(several.columns(), one.columns());
+        ASSERT_EQ(several.n_rows(), one.n_rows());
 
-        // History has the shortest text that reads back as the same number.
-        if (of_motion(column))
-        {
-          ADD_FAILURE() << column << " on " << n_ranks << " ranks has other bits from row "
-                        << first_row << " on, by " << relative;
-        }
+        unsigned int identical = 0;
+        double worst           = 0.;
+        for (const auto &column : one.columns())
+          {
+            const auto &a = one[column], &b = several[column];
+            identical += a == b;
+            double difference     = 0.;
+            std::size_t first_row = a.size();
+            for (std::size_t i = 0; i < a.size(); ++i)
+              if (a[i] != b[i])
+                {
+                  first_row  = std::min(first_row, i);
+                  difference = std::max(difference, std::abs(a[i] - b[i]));
+                }
+            if (first_row == a.size())
+              continue;
+            const double relative = difference / scale(one, column, GetParam());
+            EXPECT_LE(relative, accuracy) << column << " on " << n_ranks << " ranks";
+            worst = std::max(worst, relative);
+
+            // History has the shortest text that reads back as the same number.
+            if (of_motion(column))
+              {
+                ADD_FAILURE() << column << " on " << n_ranks << " ranks has other bits from row "
+                              << first_row << " on, by " << relative;
+              }
+          }
+        const std::string ranks = std::to_string(n_ranks) + "_ranks_";
+        RecordProperty(ranks + "identical_columns", int(identical));
+        RecordProperty(ranks + "columns", int(one.columns().size()));
+        RecordProperty(ranks + "worst", akmon::shortest_text(worst));
       }
-      const std::string ranks = std::to_string(n_ranks) + "_ranks_";
-      RecordProperty(ranks + "identical_columns", int(identical));
-      RecordProperty(ranks + "columns", int(one.columns().size()));
-      RecordProperty(ranks + "worst", akmon::shortest_text(worst));
-    }
   }
 
 

@@ -26,11 +26,11 @@ namespace
     const RigidBaseReference references[] = {{0.5899, 0.2437, 0.354, 0.026},
                                              {0.5910, 0.2455, 0.386, 0.026}};
     for (const unsigned int refinement : {0, 1})
-    {
-      auto overrides = quarter_of_rigid_base_bar(refinement);
-      overrides.emplace_back("Bodies/bar/Integration=full");
-      expect_rigid_base_bar(run_bar_on_wall("rigid_base_bar", overrides), references[refinement]);
-    }
+      {
+        auto overrides = quarter_of_rigid_base_bar(refinement);
+        overrides.emplace_back("Bodies/bar/Integration=full");
+        expect_rigid_base_bar(run_bar_on_wall("rigid_base_bar", overrides), references[refinement]);
+      }
   }
 
 
@@ -62,11 +62,11 @@ namespace
   {
     std::vector<double> errors;
     for (const char *const factor : {"0.9", "0.45", "0.225"})
-    {
-      auto overrides = quarter_of_rigid_base_bar(0);
-      overrides.push_back(std::string("Time/Safety factor=") + factor);
-      errors.push_back(run_bar_on_wall("rigid_base_bar", overrides).max_energy_error);
-    }
+      {
+        auto overrides = quarter_of_rigid_base_bar(0);
+        overrides.push_back(std::string("Time/Safety factor=") + factor);
+        errors.push_back(run_bar_on_wall("rigid_base_bar", overrides).max_energy_error);
+      }
     EXPECT_LE(errors[1], errors[0] / 3.);
     EXPECT_LE(errors[2], errors[1] / 3.);
     EXPECT_LE(errors[1], 1e-3);

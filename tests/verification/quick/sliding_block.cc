@@ -127,10 +127,10 @@ namespace
     EXPECT_LE(deviation(history, 0.3, 5., -0.3 * g, 1.), 1e-12);
     bool in_the_air = false, bounced = false;
     for (std::size_t i = 0; i < history.n_rows(); ++i)
-    {
-      in_the_air = in_the_air || history["active_pairs"][i] == 0.;
-      bounced    = bounced || history["momentum_z"][i] > 0.1 * mass;
-    }
+      {
+        in_the_air = in_the_air || history["active_pairs"][i] == 0.;
+        bounced    = bounced || history["momentum_z"][i] > 0.1 * mass;
+      }
     EXPECT_TRUE(in_the_air);
     EXPECT_TRUE(bounced);
   }
@@ -189,10 +189,10 @@ namespace
     expect_sound(history);
     double least = 1e300, most = -1e300;
     for (const std::size_t i : history.rows_between(1., 2.))
-    {
-      least = std::min(least, history["corner.displacement_x"][i]);
-      most  = std::max(most, history["corner.displacement_x"][i]);
-    }
+      {
+        least = std::min(least, history["corner.displacement_x"][i]);
+        most  = std::max(most, history["corner.displacement_x"][i]);
+      }
     EXPECT_GT(history["sticking_pairs"].back(), 0.);
     return most - least;
   }

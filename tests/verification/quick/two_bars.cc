@@ -1,11 +1,11 @@
-#include "support/run_case.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-// Two identical elastic bars, AIAA 2003-1599 section 9.1; exact 1D solution: impact at g/v0, release
-// 2 L sqrt(rho/E) later, interface at rest in between under the force rho c v0 A.
+#include "support/run_case.h"
+
+// Two identical elastic bars, AIAA 2003-1599 section 9.1; exact 1D solution: impact at g/v0,
+// release 2 L sqrt(rho/E) later, interface at rest in between under the force rho c v0 A.
 
 using namespace akmon::test;
 
@@ -16,7 +16,8 @@ namespace
 
 
   class TwoBars : public testing::TestWithParam<const char *>
-  {};
+  {
+  };
 
 
   double
@@ -31,8 +32,8 @@ namespace
 
   TEST_P(TwoBars, match_the_exact_solution)
   {
-    const Table history =
-      run_case(shipped("two_bars"), {std::string("Contact/interface/Gap model=") + GetParam()});
+    const Table history = run_case(shipped("two_bars"),
+                                   {std::string("Contact/interface/Gap model=") + GetParam()});
     const auto &time = history["time"], &pairs = history["active_pairs"];
 
     for (const double penetration : history["max_penetration_rel"])
@@ -53,20 +54,22 @@ namespace
     EXPECT_NEAR(time[first], t_impact, dt);
     EXPECT_NEAR(time[last], t_release, 3. * dt);
 
-    // The first force acts a step before the gap closes, and the central velocity is the mean of two
-    // increments: two levels later both lie in contact.
+    // The first force acts a step before the gap closes, and the central velocity is the mean of
+    // two increments: two levels later both lie in contact.
     EXPECT_LE(largest(history["left_face.velocity_x"],
                       history.rows_between(time[first + 2], t_release - dt)),
               1e-6 * v0);
     for (const std::size_t i : history.rows_between(6e-5, 1.35e-4))
       EXPECT_EQ(pairs[i], 25.);
-    double       mean = 0.;
-    const auto   rows = history.rows_between(6e-5, 1.35e-4);
+    double mean     = 0.;
+    const auto rows = history.rows_between(6e-5, 1.35e-4);
     for (const std::size_t i : rows)
       mean -= history["interface.force_x"][i] / rows.size();
     EXPECT_NEAR(mean, force, 0.01 * force);
   }
 
 
-  INSTANTIATE_TEST_SUITE_P(GapModels, TwoBars, testing::Values("point to segment", "point to point"));
+  INSTANTIATE_TEST_SUITE_P(GapModels,
+                           TwoBars,
+                           testing::Values("point to segment", "point to point"));
 } // namespace

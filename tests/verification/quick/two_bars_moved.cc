@@ -82,12 +82,12 @@ namespace
     {
       double deviation = 0.;
       for (std::size_t i = 0; i < plain.n_rows(); ++i)
-      {
-        double energy = moved[column][i];
-        if (std::string(column) == "kinetic_energy") // total momentum is zero in the plain run
-          energy -= 0.5 * mass * frame.velocity.norm_square();
-        deviation = std::max(deviation, std::abs(energy - plain[column][i]));
-      }
+        {
+          double energy = moved[column][i];
+          if (std::string(column) == "kinetic_energy") // total momentum is zero in the plain run
+            energy -= 0.5 * mass * frame.velocity.norm_square();
+          deviation = std::max(deviation, std::abs(energy - plain[column][i]));
+        }
       RecordProperty(column, akmon::shortest_text(deviation / plain["kinetic_energy"][0]));
       EXPECT_LE(deviation, accuracy * plain["kinetic_energy"][0]) << column;
     }
@@ -112,12 +112,12 @@ namespace
     {
       std::vector<std::string> overrides = {gap_model};
       for (const std::string body : {"left", "right"})
-      {
-        const Vector v({body == "left" ? v0 : -v0, 0., 0.});
-        if (frame.velocity.norm() > 0.)
-          overrides.push_back("Bodies/" + body + "/Velocity=" +
-                              text((frame.is_turned ? turned(v) : v) + frame.velocity));
-      }
+        {
+          const Vector v({body == "left" ? v0 : -v0, 0., 0.});
+          if (frame.velocity.norm() > 0.)
+            overrides.push_back("Bodies/" + body + "/Velocity=" +
+                                text((frame.is_turned ? turned(v) : v) + frame.velocity));
+        }
       return run_case(shipped(frame.is_turned ? "two_bars_rotated" : "two_bars"), overrides);
     }
   };
@@ -131,26 +131,27 @@ namespace
 
     double u = 0., v = 0., f = 0., p = 0., penetration = 0.;
     for (std::size_t i = 0; i < plain.n_rows(); ++i)
-    {
-      const double t = plain["time"][i];
-      for (const std::string probe : {"left_face", "left_middle", "left_end"})
       {
-        u = std::max(u,
-                     (to_plain(vector_at(moved, probe + ".displacement", i) - t * frame.velocity) -
-                      vector_at(plain, probe + ".displacement", i))
+        const double t = plain["time"][i];
+        for (const std::string probe : {"left_face", "left_middle", "left_end"})
+          {
+            u = std::max(u,
+                         (to_plain(vector_at(moved, probe + ".displacement", i) -
+                                   t * frame.velocity) -
+                          vector_at(plain, probe + ".displacement", i))
+                           .norm());
+            v = std::max(v,
+                         (to_plain(vector_at(moved, probe + ".velocity", i) - frame.velocity) -
+                          vector_at(plain, probe + ".velocity", i))
+                           .norm());
+          }
+        f           = std::max(f,
+                     (to_plain(vector_at(moved, "interface.force", i)) -
+                      vector_at(plain, "interface.force", i))
                        .norm());
-        v = std::max(v,
-                     (to_plain(vector_at(moved, probe + ".velocity", i) - frame.velocity) -
-                      vector_at(plain, probe + ".velocity", i))
-                       .norm());
+        p           = std::max(p, (vector_at(moved, "momentum", i) - mass * frame.velocity).norm());
+        penetration = std::max(penetration, moved["max_penetration_rel"][i]);
       }
-      f           = std::max(f,
-                   (to_plain(vector_at(moved, "interface.force", i)) -
-                    vector_at(plain, "interface.force", i))
-                     .norm());
-      p           = std::max(p, (vector_at(moved, "momentum", i) - mass * frame.velocity).norm());
-      penetration = std::max(penetration, moved["max_penetration_rel"][i]);
-    }
     RecordProperty("displacement", akmon::shortest_text(u / gap));
     RecordProperty("velocity", akmon::shortest_text(v / v0));
     RecordProperty("force", akmon::shortest_text(f / force));
@@ -181,17 +182,17 @@ namespace
       for (std::size_t i = 0; i < plain.n_rows(); ++i)
         for (unsigned int a = 0; a < 3; ++a)
           for (unsigned int b = 0; b <= a; ++b)
-          {
-            const Vector n = frame.is_turned ? turned(e[a]) : e[a],
-                         m = frame.is_turned ? turned(e[b]) : e[b];
-            double stress  = 0.;
-            for (unsigned int k = 0; k < 3; ++k)
-              for (unsigned int l = 0; l < 3; ++l)
-                stress += n[k] * moved[probe + ".stress_" + components[k][l]][i] * m[l];
-            deviation = std::max(deviation,
-                                 std::abs(stress -
-                                          plain[probe + ".stress_" + components[a][b]][i]));
-          }
+            {
+              const Vector n = frame.is_turned ? turned(e[a]) : e[a],
+                           m = frame.is_turned ? turned(e[b]) : e[b];
+              double stress  = 0.;
+              for (unsigned int k = 0; k < 3; ++k)
+                for (unsigned int l = 0; l < 3; ++l)
+                  stress += n[k] * moved[probe + ".stress_" + components[k][l]][i] * m[l];
+              deviation = std::max(deviation,
+                                   std::abs(stress -
+                                            plain[probe + ".stress_" + components[a][b]][i]));
+            }
     RecordProperty("stress", akmon::shortest_text(deviation / pressure));
     EXPECT_LE(deviation, accuracy * pressure);
   }
@@ -204,11 +205,11 @@ namespace
     const auto moved = akmon::Case::read(shipped("two_bars_rotated"), {});
     const Vector shift({3., -2., 5.});
     for (unsigned int b = 0; b < 2; ++b)
-    {
-      EXPECT_LE((moved.bodies[b].position - turned(plain.bodies[b].position) - shift).norm(),
-                1e-13);
-      EXPECT_LE((moved.bodies[b].velocity - turned(plain.bodies[b].velocity)).norm(), 1e-12);
-    }
+      {
+        EXPECT_LE((moved.bodies[b].position - turned(plain.bodies[b].position) - shift).norm(),
+                  1e-13);
+        EXPECT_LE((moved.bodies[b].velocity - turned(plain.bodies[b].velocity)).norm(), 1e-12);
+      }
     for (unsigned int p = 0; p < 3; ++p)
       EXPECT_LE((Vector(moved.probes[p].point) - turned(Vector(plain.probes[p].point)) - shift)
                   .norm(),
@@ -225,8 +226,8 @@ namespace
                      testing::Values("point to segment", "point to point")),
     [](const auto &info) {
       return std::get<0>(info.param).name +
-             std::string(std::get<1>(info.param) == std::string("point to point")
-                           ? "_point_to_point"
-                           : "_point_to_segment");
+             std::string(std::get<1>(info.param) == std::string("point to point") ?
+                           "_point_to_point" :
+                           "_point_to_segment");
     });
 } // namespace

@@ -119,13 +119,13 @@ namespace
     const auto &state = simulation.current_state();
     double mass[2] = {0., 0.}, momentum[2] = {0., 0.};
     for (unsigned int node = 0; node < model.n_owned_nodes; ++node)
-    {
-      const unsigned int body = model.body_of_node[node];
-      const auto v            = 0.5 * (akmon::at_node(state.dx, node) / state.dt +
-                            akmon::at_node(state.dx_next, node) / state.dt_next);
-      mass[body] += model.mass[node];
-      momentum[body] += model.mass[node] * v[0];
-    }
+      {
+        const unsigned int body = model.body_of_node[node];
+        const auto v            = 0.5 * (akmon::at_node(state.dx, node) / state.dt +
+                              akmon::at_node(state.dx_next, node) / state.dt_next);
+        mass[body] += model.mass[node];
+        momentum[body] += model.mass[node] * v[0];
+      }
     for (unsigned int b = 0; b < 2; ++b)
       EXPECT_NEAR(mass[b], impact.bars[b].mass(), 1e-12 * mass[b]);
     return {Table(scratch.path + "/history.csv"), {momentum[0] / mass[0], momentum[1] / mass[1]}};
@@ -160,11 +160,12 @@ namespace
     const double v_i = impact.interface_velocity;
     double sum       = 0.;
     for (const Bar &bar : impact.bars)
-    {
-      const double s = c * tau / bar.length, v = bar.velocity, w = 2. * v_i - v;
-      sum += 0.5 * bar.mass() *
-             (s < 1. ? (1. - s) * v * v + s * v_i * v_i : (2. - s) * v_i * v_i + (s - 1.) * w * w);
-    }
+      {
+        const double s = c * tau / bar.length, v = bar.velocity, w = 2. * v_i - v;
+        sum += 0.5 * bar.mass() *
+               (s < 1. ? (1. - s) * v * v + s * v_i * v_i :
+                         (2. - s) * v_i * v_i + (s - 1.) * w * w);
+      }
     return sum;
   }
 
@@ -207,15 +208,15 @@ namespace
     const Bar &a = impact.bars[0], &b = impact.bars[1];
     const double scale = a.mass() * v0 + b.mass() * std::abs(b.velocity);
     for (std::size_t i = 0; i < history.n_rows(); ++i)
-    {
-      penetration = std::max(penetration, history["max_penetration_rel"][i]);
-      energy      = std::max(energy, std::abs(history["energy_error"][i]));
-      momentum    = std::max(
-        {momentum,
-            std::abs(history["momentum_x"][i] - a.mass() * a.velocity - b.mass() * b.velocity),
-            std::abs(history["momentum_y"][i]),
-            std::abs(history["momentum_z"][i])});
-    }
+      {
+        penetration = std::max(penetration, history["max_penetration_rel"][i]);
+        energy      = std::max(energy, std::abs(history["energy_error"][i]));
+        momentum    = std::max(
+          {momentum,
+              std::abs(history["momentum_x"][i] - a.mass() * a.velocity - b.mass() * b.velocity),
+              std::abs(history["momentum_y"][i]),
+              std::abs(history["momentum_z"][i])});
+      }
     record("penetration", penetration);
     record("energy_error", energy);
     record("momentum", momentum / scale);
@@ -243,12 +244,12 @@ namespace
     for (const std::size_t i : rows)
       mean -= force[i] / rows.size();
     for (std::size_t i = 0; i < force.size(); ++i)
-    {
-      peak   = std::max(peak, -force[i]);
-      across = std::max({across,
-                         std::abs(history["interface.force_y"][i]),
-                         std::abs(history["interface.force_z"][i])});
-    }
+      {
+        peak   = std::max(peak, -force[i]);
+        across = std::max({across,
+                           std::abs(history["interface.force_y"][i]),
+                           std::abs(history["interface.force_z"][i])});
+      }
     record("mean_force", mean / impact.force - 1.);
     record("overshoot", peak / impact.force - 1.);
     record("force_across", across / impact.force);
@@ -265,12 +266,12 @@ namespace
     const auto &force = history["interface.force_x"], &time = history["time"];
     std::size_t first = 0, last = 0;
     for (std::size_t i = 0; i < force.size(); ++i)
-    {
-      if (first == 0 && history["active_pairs"][i] > 0.)
-        first = i;
-      if (-force[i] > 0.5 * impact.force)
-        last = i;
-    }
+      {
+        if (first == 0 && history["active_pairs"][i] > 0.)
+          first = i;
+        if (-force[i] > 0.5 * impact.force)
+          last = i;
+      }
     const double s       = (-force[last] - 0.5 * impact.force) / (force[last + 1] - force[last]);
     const double release = time[last] + s * (time[last + 1] - time[last]);
     record("impact", (time[first] - t_impact) / dt);
@@ -293,15 +294,15 @@ namespace
     const auto rows           = history.rows_between(t_impact + 2. * dt, t_release - 5. * h / c);
     double mean = 0., apart = 0., difference = 0.;
     for (const std::size_t i : rows)
-    {
-      mean += history[face[0] + ".velocity_x"][i] / rows.size();
-      difference = std::max(difference,
-                            std::abs(history[face[0] + ".velocity_x"][i] -
-                                     history[face[1] + ".velocity_x"][i]));
-      apart      = std::max(apart,
-                       std::abs(history[face[0] + ".displacement_x"][i] -
-                                history[face[1] + ".displacement_x"][i] - impact.gap));
-    }
+      {
+        mean += history[face[0] + ".velocity_x"][i] / rows.size();
+        difference = std::max(difference,
+                              std::abs(history[face[0] + ".velocity_x"][i] -
+                                       history[face[1] + ".velocity_x"][i]));
+        apart      = std::max(apart,
+                         std::abs(history[face[0] + ".displacement_x"][i] -
+                                  history[face[1] + ".displacement_x"][i] - impact.gap));
+      }
     record("interface_velocity", (mean - impact.interface_velocity) / v_scale);
     record("faces_velocity", difference / v_scale);
     record("faces_apart", apart / impact.gap);
@@ -314,11 +315,11 @@ namespace
   TEST_P(Impacts, leave_with_the_exact_velocities)
   {
     for (unsigned int b = 0; b < 2; ++b)
-    {
-      record(std::string("velocity_") + impact.bars[b].name,
-             (outcome.velocity[b] - impact.bars[b].velocity_after) / v0);
-      EXPECT_NEAR(outcome.velocity[b], impact.bars[b].velocity_after, 1.5 / n * v0);
-    }
+      {
+        record(std::string("velocity_") + impact.bars[b].name,
+               (outcome.velocity[b] - impact.bars[b].velocity_after) / v0);
+        EXPECT_NEAR(outcome.velocity[b], impact.bars[b].velocity_after, 1.5 / n * v0);
+      }
   }
 
 
@@ -328,17 +329,17 @@ namespace
     EXPECT_NEAR(initial, kinetic_energy(impact, 0.), 1e-12 * initial);
     double worst = 0.;
     for (const double tau_c_over_l : {0.1, 0.25, 0.5, 0.75, 0.9, 1., 1.1, 1.25, 1.5, 1.75, 1.9})
-    {
-      const double tau    = tau_c_over_l * length / c;
-      const double energy = interpolated(history, "kinetic_energy", t_impact + tau);
-      const double exact  = kinetic_energy(impact, tau);
-      if (impact.name == std::string("equal"))
       {
-        EXPECT_NEAR(exact, std::abs(1. - tau_c_over_l) * initial, 1e-12 * initial);
+        const double tau    = tau_c_over_l * length / c;
+        const double energy = interpolated(history, "kinetic_energy", t_impact + tau);
+        const double exact  = kinetic_energy(impact, tau);
+        if (impact.name == std::string("equal"))
+          {
+            EXPECT_NEAR(exact, std::abs(1. - tau_c_over_l) * initial, 1e-12 * initial);
+          }
+        EXPECT_NEAR(energy, exact, initial / n) << tau_c_over_l;
+        worst = std::max(worst, std::abs(energy - exact));
       }
-      EXPECT_NEAR(energy, exact, initial / n) << tau_c_over_l;
-      worst = std::max(worst, std::abs(energy - exact));
-    }
     record("kinetic_energy", worst / initial);
   }
 
@@ -349,8 +350,8 @@ namespace
                                             testing::Values(Courant::nine_tenths, Courant::one)),
                            [](const auto &info) {
                              return std::get<0>(info.param).name +
-                                    std::string(std::get<1>(info.param) == Courant::one ? "_1"
-                                                                                        : "_0_9");
+                                    std::string(std::get<1>(info.param) == Courant::one ? "_1" :
+                                                                                          "_0_9");
                            });
 
 
@@ -370,11 +371,11 @@ namespace
   TEST(UnequalBars, shipped_cases_leave_with_the_exact_velocities)
   {
     for (const unsigned int i : {1u, 3u})
-    {
-      const Outcome outcome = run(impacts[i], std::vector<std::string>());
-      for (unsigned int b = 0; b < 2; ++b)
-        EXPECT_NEAR(outcome.velocity[b], impacts[i].bars[b].velocity_after, 1.5 / n * v0);
-    }
+      {
+        const Outcome outcome = run(impacts[i], std::vector<std::string>());
+        for (unsigned int b = 0; b < 2; ++b)
+          EXPECT_NEAR(outcome.velocity[b], impacts[i].bars[b].velocity_after, 1.5 / n * v0);
+      }
   }
 
 
@@ -401,21 +402,21 @@ namespace
   {
     const double digits = 0.5e-7, per_transit = v0 * h / c;
     for (const Courant courant : {Courant::nine_tenths, Courant::one})
-    {
-      Impact impact         = impacts[0];
-      impact.after          = 1.62e-4;
-      const Outcome outcome = run(impact, courant);
-      for (const Row &row : table)
       {
-        const double inside = courant == Courant::one || row.t < 4.9e-5 ? digits
-                                                                        : 0.05 * per_transit;
-        const auto u        = [&](const char *probe) {
-          return interpolated(outcome.history, probe + std::string(".displacement_x"), row.t);
-        };
-        EXPECT_NEAR(u("left_face"), row.face, row.t < 1.48e-4 ? digits : per_transit) << row.t;
-        EXPECT_NEAR(u("left_middle"), row.middle, inside) << row.t;
-        EXPECT_NEAR(u("left_end"), row.end, inside) << row.t;
+        Impact impact         = impacts[0];
+        impact.after          = 1.62e-4;
+        const Outcome outcome = run(impact, courant);
+        for (const Row &row : table)
+          {
+            const double inside = courant == Courant::one || row.t < 4.9e-5 ? digits :
+                                                                              0.05 * per_transit;
+            const auto u        = [&](const char *probe) {
+              return interpolated(outcome.history, probe + std::string(".displacement_x"), row.t);
+            };
+            EXPECT_NEAR(u("left_face"), row.face, row.t < 1.48e-4 ? digits : per_transit) << row.t;
+            EXPECT_NEAR(u("left_middle"), row.middle, inside) << row.t;
+            EXPECT_NEAR(u("left_end"), row.end, inside) << row.t;
+          }
       }
-    }
   }
 } // namespace
