@@ -1,14 +1,15 @@
 #include <akmon/case.h>
+#include <akmon/parameter_errors.h>
+#include <akmon/parameter_reference.h>
 #include <akmon/parameters.h>
 
-#include <deal.II/base/utilities.h>
+#include <deal.II/base/exceptions.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <iostream>
-#include <limits>
 #include <map>
 #include <regex>
 #include <sstream>
@@ -122,153 +123,6 @@ namespace akmon
     }
 
 
-    std::string
-    join(const std::vector<std::string> &names, const std::string &separator)
-    {
-      std::string text;
-      for (const auto &name : names)
-        text += (text.empty() ? "" : separator) + name;
-      return text;
-    }
-
-
-    // Follows a prm text line by line.
-    struct PrmReader
-    {
-      std::vector<std::string> open; // the subsections around the last line: "Bodies", "left"
-      std::string key, value;        // if that line sets an entry
-
-      void
-      take(const std::string &line)
-      {
-        static const std::regex subsection("\\s*subsection\\s+(.*?)\\s*(#.*)?"),
-          end("\\s*end\\s*(#.*)?"), set("\\s*set\\s+(.*?)\\s*=\\s*(.*?)\\s*(#.*)?");
-        std::smatch match;
-        key.clear();
-        if (std::regex_match(line, match, subsection))
-          open.push_back(match[1]);
-        else if (std::regex_match(line, end) && !open.empty())
-          open.pop_back();
-        else if (std::regex_match(line, match, set))
-          {
-            key   = match[1];
-            value = match[2];
-          }
-      }
-    };
-
-
-    // Reads a file up to a line (or its end).
-    PrmReader
-    read_until(const std::string &file, const unsigned int line_number)
-    {
-      std::ifstream in(file);
-      PrmReader reader;
-      std::string line;
-      for (unsigned int i = 0; i < line_number && std::getline(in, line); ++i)
-        reader.take(line);
-      return reader;
-    }
-
-
-    // What a declared section has: its keys or its subsections.
-    std::string
-    contents(const ParameterHandler &prm,
-             const std::vector<std::string> &section,
-             const bool want_subsections)
-    {
-      std::stringstream text;
-      prm.print_parameters(text, ParameterHandler::ShortText);
-      PrmReader reader;
-      std::vector<std::string> names;
-      for (std::string line; std::getline(text, line);)
-        {
-          const std::size_t depth_before = reader.open.size();
-          reader.take(line);
-          const auto &open = reader.open;
-          if (!reader.key.empty() && !want_subsections && open == section)
-            names.push_back(reader.key);
-          else if (open.size() > depth_before && want_subsections &&
-                   std::vector<std::string>(open.begin(), open.end() - 1) == section)
-            names.push_back(open.back());
-        }
-      return names.empty() ? "none" : join(names, ", ");
-    }
-
-
-    std::string
-    no_such_section(const ParameterHandler &prm, std::vector<std::string> section)
-    {
-      // The first part that is unknown.
-      std::vector<std::string> known;
-      while (known.size() + 1 < section.size())
-        {
-          known.push_back(section[known.size()]);
-          if (!prm.subsection_path_exists(known))
-            {
-              known.pop_back();
-              break;
-            }
-        }
-      const bool is_list = known.size() == 1 &&
-                           std::any_of(list_sections().begin(),
-                                       list_sections().end(),
-                                       [&](const auto &list) { return list.name == known[0]; });
-      return "there is no such section; allowed are " + contents(prm, known, true) +
-             (is_list ? " (the Names of [" + known[0] + "])" : "");
-    }
-
-
-    std::string
-    no_such_key(const ParameterHandler &prm, const std::vector<std::string> &section)
-    {
-      return "there is no such key; allowed are " + contents(prm, section, false);
-    }
-
-
-    // One line out of what deal.II says about a prm file.
-    std::string
-    one_line(const ExceptionBase &exception, const ParameterHandler &prm, const std::string &file)
-    {
-      std::ostringstream text;
-      exception.print_info(text);
-      const std::string collapsed = dealii::Utilities::trim(
-        std::regex_replace(text.str(), std::regex("\\s+"), " "));
-      const auto found = [&](const char *const pattern, std::smatch &match) {
-        return std::regex_search(collapsed, match, std::regex(pattern));
-      };
-
-      std::smatch match;
-      if (dynamic_cast<const ParameterHandler::ExcUnbalancedSubsections *>(&exception))
-        return "the end of the file comes within section [" +
-               join(read_until(file, std::numeric_limits<unsigned int>::max()).open, "/") +
-               "]: an 'end' is missing in it or before it";
-      if (!found("Line <(\\d+)> of file <(.*?)(?:>:|>\\.|: There is) *(.*)", match))
-        return collapsed;
-      const std::string problem = match[3];
-      const auto reader         = read_until(match[2], std::stoul(match[1]));
-      const std::string place   = "line " + match[1].str() +
-                                (match[2] == file ? "" : " of " + match[2].str()) + ": ";
-      const std::string section = reader.open.empty() ? "" : "[" + join(reader.open, "/") + "] ";
-      if (dynamic_cast<const ParameterHandler::ExcNoSubsection *>(&exception))
-        return place + section + no_such_section(prm, reader.open);
-      if (dynamic_cast<const ParameterHandler::ExcInvalidEntryForPattern *>(&exception) &&
-          found("does not match the given pattern:? *(.*)", match))
-        return place + section + reader.key + " = " + reader.value + ": " +
-               allowed_values(match[1]);
-      if (found("No entry with name", match))
-        return place + section + reader.key + " = " + reader.value + ": " +
-               no_such_key(prm, reader.open);
-      if (found("no subsection to leave", match))
-        return place + "an 'end' without its subsection";
-      if (found("The line <(.*)> could not be parsed", match))
-        return place + section + "'" + match[1].str() +
-               "' is not understood; allowed are 'subsection NAME', 'set KEY = VALUE', 'end' and "
-               "comments after '#'";
-      return place + section + problem;
-    }
-
-
     void
     parse_file(ParameterHandler &prm, const std::string &file, const bool skip_undefined)
     {
@@ -285,7 +139,7 @@ namespace akmon
         }
       catch (const ExceptionBase &exception)
         {
-          throw InputError(one_line(exception, prm, file));
+          throw InputError(in_one_line(exception, prm, file));
         }
     }
 
@@ -472,6 +326,6 @@ namespace akmon
       names[section.name] = {"NAME"};
     ParameterHandler prm;
     declare_all(prm, names);
-    prm.print_parameters(out, ParameterHandler::Description);
+    print_parameter_reference(prm, out);
   }
 } // namespace akmon

@@ -54,12 +54,24 @@ namespace akmon
     if (Utilities::MPI::max((unsigned int)participants.size(), nodes.get_communicator()) == 0)
       return;
     delassus.reinit(participants, effective_mass_factor);
-    norm = delassus.norm_bound();
+    norm     = delassus.norm_bound();
+    isolated = delassus.isolated_pairs();
     weights.resize(participants.size());
     for (std::size_t i = 0; i < participants.size(); ++i)
-      weights[i] = delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * participants[i]->size) :
-                                              0.;
+      weights[i] =
+        delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * participants[i]->size) : 0.;
     complementarity(dx_free);
+  }
+
+
+  // Gaps are to be exact relative to the cell, forces relative to themselves: what remains of a violation
+  // over the violation without contact forces is the relative error of the forces.
+  double
+  CoupledSolver::tolerance_for(const double violation) const
+  {
+    constexpr double force_tolerance = 1e-9;
+    return std::min(parameters.tolerance,
+                    force_tolerance * Utilities::MPI::max(violation, nodes.get_communicator()));
   }
 
 
@@ -71,6 +83,7 @@ namespace akmon
     const auto &s       = delassus.scale();
     const std::size_t n = participants.size();
     std::vector<double> b(n), tau(n);
+    double              violation = 0.;
     if (tangential_forces)
       {
         const auto &dx_tau = delassus.increments(
@@ -83,10 +96,15 @@ namespace akmon
         const auto &pair = *participants[i];
         b[i] += s[i] * (pair.normal * pair.relative(dx_free) + pair.target_gap);
         tau[i] = s[i] > 0. ? pair.normal_force / s[i] : 0.;
+        violation = std::max(violation, -weights[i] * b[i]);
       }
+    last_tolerance = tolerance_for(violation);
+    if (last_tolerance == 0.) // nothing would close: no force at all
+      tau.assign(n, 0.);
+    set_isolated(HalfLine(), b, tau);
 
     ProjectedConjugateGradients<HalfLine> solver(nodes.get_communicator(),
-                                                 parameters.tolerance,
+                                                 last_tolerance,
                                                  parameters.limit);
     const auto result = solver.solve([&](const std::vector<double> &t,
                                          std::vector<double> &y) { delassus.apply_normal(t, y); },
@@ -127,7 +145,7 @@ namespace akmon
     for (unsigned int round = 0; round < max_rounds; ++round)
       {
         slip(dx_free, friction_coefficients);
-        if (complementarity(dx_free) <= parameters.tolerance)
+        if (complementarity(dx_free) <= last_tolerance)
           break;
       }
   }
@@ -142,6 +160,7 @@ namespace akmon
     const auto &s       = delassus.scale();
     const std::size_t n = participants.size();
     Discs discs;
+    double violation = 0.;
     std::vector<Tensor<1, 3>> b(n), tau(n);
     const auto &dx_n = delassus.increments(
       [&](const std::size_t i) { return participants[i]->normal_force * participants[i]->normal; });
@@ -152,9 +171,11 @@ namespace akmon
         tau[i] = s[i] > 0. ? pair.tangential_part(pair.tangential_force) / s[i] : Tensor<1, 3>();
         discs.radius.push_back(
           s[i] > 0. ? friction_coefficients[indices[i]] * pair.normal_force / s[i] : 0.);
+        violation = std::max(violation, weights[i] * b[i].norm());
       }
+    set_isolated(discs, b, tau);
     ProjectedConjugateGradients<Discs> solver(nodes.get_communicator(),
-                                              parameters.tolerance,
+                                              tolerance_for(violation),
                                               parameters.limit);
     const auto
       result = solver.solve([&](const std::vector<Tensor<1, 3>> &t,

@@ -63,6 +63,25 @@ namespace akmon
   }
 
 
+  std::vector<bool>
+  Delassus::isolated_pairs()
+  {
+    clear();
+    for (const ContactPair *const pair : pairs)
+      for (unsigned int k = 0; k < pair->n_nodes; ++k)
+        field.add(pair->nodes[k], Tensor<1, 3>({1., 0., 0.}));
+    nodes.add_to_owners(field);
+    nodes.update_ghosts(field);
+    std::vector<bool> result;
+    for (const ContactPair *const pair : pairs)
+      result.push_back(
+        std::all_of(pair->nodes.begin(), pair->nodes.begin() + pair->n_nodes, [&](const auto number) {
+          return field[number][0] == 1.;
+        }));
+    return result;
+  }
+
+
   void
   Delassus::clear()
   {

@@ -59,18 +59,34 @@ namespace akmon
     void
     choose_participants(std::vector<ContactPair> &pairs, const ContactNodes::Field &dx_free);
     double
+    tolerance_for(const double violation) const;
+    double
     complementarity(const ContactNodes::Field &dx_free);
     void
     slip(const ContactNodes::Field &dx_free, const std::vector<double> &friction_coefficients);
+
+    // A pair that shares no node with another has a closed solution, which is exact.
+    template <typename Set>
+    void
+    set_isolated(const Set &                                set,
+                 const std::vector<typename Set::Unknown> & b,
+                 std::vector<typename Set::Unknown> &       tau) const
+    {
+      for (std::size_t i = 0; i < tau.size(); ++i)
+        if (isolated[i])
+          tau[i] = set.project(i, -1. * b[i]);
+    }
 
     const ContactSolver &parameters;
     const ContactNodes &nodes;
     Delassus delassus;
     std::vector<ContactPair *> participants;
     std::vector<unsigned int> indices; ///< of the participants among all pairs
+    std::vector<bool> isolated;
     std::vector<double> weights;
     double norm               = 0.;
     unsigned int n_iterations = 0;
+    double last_tolerance = 0.;
     double last_residual      = 0.;
     bool tangential_forces    = false; ///< whether any has been found in this step
   };

@@ -37,6 +37,10 @@ namespace akmon
     double
     norm_bound();
 
+    /// Pairs none of whose nodes belongs to another pair (collective).
+    std::vector<bool>
+    isolated_pairs();
+
     /// y_i = s_i n_i . G_i m*^{-1} sum_j G_j^T n_j s_j tau_j (collective).
     void
     apply_normal(const std::vector<double> &tau, std::vector<double> &y);

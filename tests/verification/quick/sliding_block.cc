@@ -230,6 +230,7 @@ namespace
                                                     velocity + "0.2, 0, 0",
                                                     damping + "100",
                                                     stick + kind,
+                                                    "Contact solver/Type=decoupled",
                                                     end + "0.5"}),
                                  MPI_COMM_SELF,
                                  true);
