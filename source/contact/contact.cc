@@ -44,10 +44,11 @@ namespace akmon
       for (unsigned int i = 0; i < contacts.size(); ++i)
         {
           const auto &contact  = contacts[i];
-          const bool symmetric = solver.type == ContactSolver::Type::coupled && contact.symmetric;
-          searches.emplace_back(discretization, contact, i, false);
+          const bool coupled   = solver.type == ContactSolver::Type::coupled;
+          const bool symmetric = coupled && contact.symmetric;
+          searches.emplace_back(discretization, contact, i, false, coupled);
           if (symmetric && contact.slaves != contact.masters)
-            searches.emplace_back(discretization, contact, i, true);
+            searches.emplace_back(discretization, contact, i, true, coupled);
         }
       return searches;
     }
@@ -142,8 +143,12 @@ namespace akmon
     const std::vector<ContactPair> previous = std::move(pairs);
     pairs.clear();
     nodes.gather(state.x, x);
+    nodes.gather(state.dx, dx);
+    x_ahead = x;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      x_ahead.add(i, dx[i]);
     for (const auto &search : searches)
-      search.find_pairs(state.x, x, pairs);
+      search.find_pairs(state.x, x, x_ahead, dx, pairs);
     find_plane_pairs(state);
     if (solver.type == ContactSolver::Type::coupled)
       warm_start(previous);
@@ -229,7 +234,8 @@ namespace akmon
       {
         const double c = discretization.material_of(discretization.body_of_node[pair.slave])
                            .dilatational_wave_speed();
-        pair.target_gap = std::max(pair.gap, -solver.release_speed * c * state.dt_next);
+        pair.target_gap =
+          pair.curvature + std::max(pair.gap, -solver.release_speed * c * state.dt_next);
       }
   }
 
@@ -267,7 +273,6 @@ namespace akmon
   void
   Contact::resolve_friction(const NodalState &state, const double effective_mass_factor)
   {
-    nodes.gather(state.dx, dx);
     if (solver.type == ContactSolver::Type::coupled)
       {
         std::vector<double> coefficients;

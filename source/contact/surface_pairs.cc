@@ -131,36 +131,68 @@ namespace akmon
   }
 
 
-  void
-  SurfaceSearch::find_pairs(const NodalVector &positions,
-                            const ContactNodes::Field &x,
-                            std::vector<ContactPair> &pairs) const
+  // The partner of a slave at positions x; false if it has none within the radius.
+  bool
+  SurfaceSearch::locate(const ContactNodes::Field &x,
+                        const unsigned int slave,
+                        const Tensor<1, 3> &outward,
+                        Partner &partner) const
   {
     // A node further inside than this part of the cell behind the face belongs to another face's
     // side.
     constexpr double deepest_part = 0.5;
 
+    const bool to_points = contact.gap_model == SurfaceContact::GapModel::point_to_point;
+    if (!closest_segment(x, slave, outward, partner))
+      return false;
+    if (to_points)
+      snap_to_closest_node(x, x[slaves[slave].number], partner);
+
+    bool on_rim;
+    const auto &face       = masters[partner.face];
+    partner.normal         = feature_normal(x, partner, on_rim);
+    partner.gap            = partner.normal * partner.projection.offset;
+    const double overhang  = (partner.projection.offset - partner.gap * partner.normal).norm();
+    const double face_size = std::sqrt(area_vector(segment(x, face)).norm());
+    const double allowed   = (to_points ? 0.5 : contact.rim_tolerance) * face_size;
+    return partner.gap <= search_radius && partner.gap >= -deepest_part * face.depth &&
+           !(on_rim && overhang > allowed);
+  }
+
+
+  // What the linear gap n . G dx + g misses while segments turn under the slave: the true gap where
+  // the last increment would lead once more, less its linear prediction.
+  double
+  SurfaceSearch::curvature(const ContactNodes::Field &x_ahead,
+                           const ContactNodes::Field &dx,
+                           const unsigned int slave,
+                           const Tensor<1, 3> &outward,
+                           const ContactPair &pair) const
+  {
+    const auto motion = pair.relative(dx);
+    const double size = motion.norm();
+    Partner ahead;
+    if (pair.gap > 4. * size || !locate(x_ahead, slave, outward, ahead))
+      return 0.;
+    // A partner of another kind (another side of an edge) is no small turn.
+    return std::clamp(ahead.gap - (pair.gap + pair.normal * motion), -0.1 * size, 0.1 * size);
+  }
+
+
+  void
+  SurfaceSearch::find_pairs(const NodalVector &positions,
+                            const ContactNodes::Field &x,
+                            const ContactNodes::Field &x_ahead,
+                            const ContactNodes::Field &dx,
+                            std::vector<ContactPair> &pairs) const
+  {
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
         if (slaves[s].first_candidate == slaves[s + 1].first_candidate)
           continue;
+        const auto outward = slave_normal(positions, s);
         Partner partner;
-        if (!closest_segment(x, s, slave_normal(positions, s), partner))
-          continue;
-        if (contact.gap_model == SurfaceContact::GapModel::point_to_point)
-          snap_to_closest_node(x, x[slaves[s].number], partner);
-
-        bool on_rim;
-        const auto normal      = feature_normal(x, partner, on_rim);
-        const auto &face       = masters[partner.face];
-        const double gap       = normal * partner.projection.offset;
-        const double overhang  = (partner.projection.offset - gap * normal).norm();
-        const double face_size = std::sqrt(area_vector(segment(x, face)).norm());
-        const double allowed   = contact.gap_model == SurfaceContact::GapModel::point_to_point ?
-                                   0.5 * face_size :
-                                   contact.rim_tolerance * face_size;
-        if (gap > search_radius || gap < -deepest_part * face.depth ||
-            (on_rim && overhang > allowed))
+        if (!locate(x, s, outward, partner))
           continue;
 
         ContactPair pair;
@@ -168,17 +200,19 @@ namespace akmon
         pair.reversed   = reversed;
         pair.slave      = slaves[s].node;
         pair.slave_id   = slaves[s].id;
-        pair.normal     = normal;
-        pair.gap        = gap;
+        pair.normal     = partner.normal;
+        pair.gap        = partner.gap;
         pair.size       = slaves[s].size;
         pair.nodes[0]   = slaves[s].number;
         pair.weights[0] = 1.;
         for (unsigned int k = 0; k < 4; ++k)
           if (partner.projection.N[k] != 0.)
             {
-              pair.nodes[pair.n_nodes]     = face.nodes[k];
+              pair.nodes[pair.n_nodes]     = masters[partner.face].nodes[k];
               pair.weights[pair.n_nodes++] = -partner.projection.N[k];
             }
+        if (follow_curvature)
+          pair.curvature = curvature(x_ahead, dx, s, outward, pair);
         pairs.push_back(pair);
       }
   }

@@ -67,11 +67,12 @@ namespace akmon
   SurfaceSearch::SurfaceSearch(const Discretization &discretization,
                                const SurfaceContact &contact,
                                const unsigned int interface,
-                               const bool reversed)
+                               const bool reversed,
+                               const bool follow_curvature)
     : discretization(discretization)
     , contact(contact)
     , interface(interface)
-    , reversed(reversed)
+    , reversed(reversed), follow_curvature(follow_curvature)
     , slave_faces(select_faces(discretization, contact, "Slave", contact.slaves))
     , master_faces(select_faces(discretization, contact, "Master", contact.masters))
   {

@@ -144,7 +144,7 @@ namespace akmon
     double moved  = 0.; ///< bound of relative motion since candidates were built
     bool prepared = false;
 
-    ContactNodes::Field x, dx, dx_free;
+    ContactNodes::Field x, dx, x_ahead, dx_free;
     std::vector<ContactPair> pairs;
     std::vector<ContactNodes::Contribution> contributions;
     std::vector<NodalForce> forces;

@@ -23,11 +23,13 @@ namespace akmon
     /**
      * Throws InputError for unknown surfaces.
      * @param reversed  the contact's masters are the slaves of this search and the other way round
+     * @param follow_curvature  pairs tell what their linear gap misses while segments turn
      */
     SurfaceSearch(const Discretization &discretization,
                   const SurfaceContact &contact,
                   const unsigned int interface,
-                  const bool reversed);
+                  const bool reversed,
+                  const bool follow_curvature);
 
     /// Distance over which partners are looked for; length. The same on all ranks.
     double
@@ -45,11 +47,17 @@ namespace akmon
     void
     build_candidates(const ContactNodes &nodes, const ContactNodes::Field &x);
 
-    /// Append the pairs of this rank's slaves in configuration @p x, in the order of global node
-    /// numbers.
+    /**
+     * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
+     * numbers.
+     * @param positions  the same configuration as a nodal vector
+     * @param x_ahead    x + dx, with the increment dx that led here
+     */
     void
     find_pairs(const NodalVector &positions,
                const ContactNodes::Field &x,
+               const ContactNodes::Field &x_ahead,
+               const ContactNodes::Field &dx,
                std::vector<ContactPair> &pairs) const;
 
     /// Owned and ghost faces of both surfaces.
@@ -96,6 +104,8 @@ namespace akmon
     {
       unsigned int face; ///< in masters
       Projection projection;
+      dealii::Tensor<1, 3> normal; ///< outward, of the closest feature
+      double gap;                  ///< along the normal; length
     };
 
     void
@@ -111,6 +121,17 @@ namespace akmon
                     const unsigned int slave,
                     const dealii::Tensor<1, 3> &outward,
                     Partner &partner) const;
+    bool
+    locate(const ContactNodes::Field &x,
+           const unsigned int slave,
+           const dealii::Tensor<1, 3> &outward,
+           Partner &partner) const;
+    double
+    curvature(const ContactNodes::Field &x_ahead,
+              const ContactNodes::Field &dx,
+              const unsigned int slave,
+              const dealii::Tensor<1, 3> &outward,
+              const ContactPair &pair) const;
     void
     snap_to_closest_node(const ContactNodes::Field &x,
                          const dealii::Tensor<1, 3> &slave,
@@ -124,6 +145,7 @@ namespace akmon
     const SurfaceContact &contact;
     const unsigned int interface;
     const bool reversed;
+    const bool follow_curvature;
     double search_radius;
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
 
