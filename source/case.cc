@@ -230,6 +230,7 @@ namespace akmon
     std::vector<Item>
     parse_items(ParameterHandler &prm, const Names &names, const std::string &section)
     {
+      const std::string above = section + "/";
       std::vector<Item> items;
       prm.enter_subsection(section);
       for (const auto &name : names.at(section))
@@ -237,7 +238,7 @@ namespace akmon
           prm.enter_subsection(name);
           items.emplace_back();
           items.back().name = name;
-          items.back().parse(prm, section + "/" + name);
+          items.back().parse(prm, above + name);
           prm.leave_subsection();
         }
       prm.leave_subsection();

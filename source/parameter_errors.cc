@@ -132,7 +132,7 @@ namespace akmon
   {
     std::ostringstream text;
     exception.print_info(text);
-    const std::string collapsed = dealii::Utilities::trim(
+    std::string collapsed = dealii::Utilities::trim(
       std::regex_replace(text.str(), std::regex("\\s+"), " "));
     const auto found = [&](const char *const pattern, std::smatch &match) {
       return std::regex_search(collapsed, match, std::regex(pattern));

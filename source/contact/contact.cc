@@ -168,7 +168,7 @@ namespace akmon
     mobility.reinit(nodes);
     nodes.gather(state.x, x);
     for (auto &search : searches)
-      search.build_candidates(nodes, x);
+      search.build_candidates(nodes, state.x, x);
     moved    = 0.;
     prepared = true;
   }

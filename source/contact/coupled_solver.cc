@@ -83,7 +83,7 @@ namespace akmon
     const auto &s       = delassus.scale();
     const std::size_t n = participants.size();
     std::vector<double> b(n), tau(n);
-    double              violation = 0.;
+    normal_violation = 0.;
     if (tangential_forces)
       {
         const auto &dx_tau = delassus.increments(
@@ -96,9 +96,9 @@ namespace akmon
         const auto &pair = *participants[i];
         b[i] += s[i] * (pair.normal * pair.relative(dx_free) + pair.target_gap);
         tau[i] = s[i] > 0. ? pair.normal_force / s[i] : 0.;
-        violation = std::max(violation, -weights[i] * b[i]);
+        normal_violation = std::max(normal_violation, -weights[i] * b[i]);
       }
-    last_tolerance = tolerance_for(violation);
+    last_tolerance = tolerance_for(normal_violation);
     if (last_tolerance == 0.) // nothing would close: no force at all
       tau.assign(n, 0.);
     set_isolated(HalfLine(), b, tau);
@@ -160,7 +160,8 @@ namespace akmon
     const auto &s       = delassus.scale();
     const std::size_t n = participants.size();
     Discs discs;
-    double violation = 0.;
+    // Of normal forces too: where nothing slips, slip itself is rounding and no measure.
+    double violation = normal_violation;
     std::vector<Tensor<1, 3>> b(n), tau(n);
     const auto &dx_n = delassus.increments(
       [&](const std::size_t i) { return participants[i]->normal_force * participants[i]->normal; });

@@ -195,7 +195,9 @@ namespace akmon
 
 
   void
-  SurfaceSearch::build_candidates(const ContactNodes &nodes, const ContactNodes::Field &x)
+  SurfaceSearch::build_candidates(const ContactNodes &nodes,
+                                  const NodalVector &positions,
+                                  const ContactNodes::Field &x)
   {
     masters.clear();
     std::vector<std::pair<unsigned int, unsigned int>> incidence; // (contact node, face)
@@ -232,11 +234,32 @@ namespace akmon
         slaves[s].first_candidate = candidates.size();
         slaves[s].id              = nodes.id_of_local(slaves[s].node);
         slaves[s].number          = nodes.number(slaves[s].id);
+        const auto outward        = slave_normal(positions, s);
         tree.query(boost::geometry::index::intersects(Point<3>(x[slaves[s].number])),
-                   boost::make_function_output_iterator(
-                     [&](const auto &entry) { candidates.push_back(entry.second); }));
+                   boost::make_function_output_iterator([&](const auto &entry) {
+                     if (may_face(x, masters[entry.second], slaves[s].number, outward))
+                       candidates.push_back(entry.second);
+                   }));
         std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());
       }
     slaves.back().first_candidate = candidates.size();
+  }
+
+
+  // Whether a face can come to look at a slave before the candidates are built anew. On a surface in
+  // contact with itself most faces nearby are the slave's own neighbours: they look the same way, and no
+  // motion within the radius turns them round.
+  bool
+  SurfaceSearch::may_face(const ContactNodes::Field &x,
+                          const MasterFace &face,
+                          const unsigned int slave_number,
+                          const Tensor<1, 3> &outward) const
+  {
+    constexpr double same_way = 0.8; // cosine
+
+    if (std::find(face.nodes.begin(), face.nodes.end(), slave_number) != face.nodes.end())
+      return false;
+    const auto normal = area_vector(segment(x, face));
+    return normal * outward <= same_way * normal.norm() * outward.norm();
   }
 } // namespace akmon

@@ -138,6 +138,31 @@ namespace akmon
   }
 
 
+  // u at the end or v in the middle of the coming step
+  Tensor<1, 3>
+  EssentialConditions::function_value(const unsigned int motion,
+                                      const NodalState &state,
+                                      const Point<3> &X) const
+  {
+    const auto &of   = motions[motion];
+    const double dt = state.dt_next;
+    return of.function.vector(X,
+                              of.type == PrescribedMotion::Type::velocity ? state.time + 0.5 * dt :
+                                                                            state.time + dt);
+  }
+
+
+  // Parsing an expression at every node costs more than the rest of a small step.
+  void
+  EssentialConditions::evaluate_uniform_functions(const NodalState &state)
+  {
+    uniform_values.resize(motions.size());
+    for (unsigned int m = 0; m < motions.size(); ++m)
+      if (motions[m].function.uniform())
+        uniform_values[m] = function_value(m, state, Point<3>());
+  }
+
+
   double
   EssentialConditions::prescribed_increment(const Direction &direction,
                                             const NodalState &state,
@@ -147,19 +172,18 @@ namespace akmon
     const auto x = at_node(state.x, node);
     double sum   = 0.;
     for (const auto &[k, weight] : direction.terms)
-      switch (motions[k].type)
-        {
-          case PrescribedMotion::Type::symmetry:
+      {
+        const auto type = motions[k].type;
+        if (type == PrescribedMotion::Type::symmetry)
+          {
             sum += weight * (X - x);
-            break;
-          case PrescribedMotion::Type::displacement:
-            sum += weight * (X + motions[k].function.vector(X, state.time + state.dt_next) - x);
-            break;
-          case PrescribedMotion::Type::velocity:
-            sum += weight * motions[k].function.vector(X, state.time + 0.5 * state.dt_next) *
-                   state.dt_next;
-            break;
-        }
+            continue;
+          }
+        const auto value =
+          motions[k].function.uniform() ? uniform_values[k] : function_value(k, state, X);
+        sum += type == PrescribedMotion::Type::velocity ? weight * value * state.dt_next :
+                                                          weight * (X + value - x);
+      }
     return sum;
   }
 
@@ -167,6 +191,8 @@ namespace akmon
   void
   EssentialConditions::apply(NodalState &state, const double effective_mass_factor)
   {
+    if (!nodes.empty())
+      evaluate_uniform_functions(state);
     for (auto &constrained : nodes)
       {
         const unsigned int node = constrained.node;

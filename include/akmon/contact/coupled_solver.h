@@ -86,7 +86,8 @@ namespace akmon
     std::vector<double> weights;
     double norm               = 0.;
     unsigned int n_iterations = 0;
-    double last_tolerance = 0.;
+    double normal_violation = 0.; ///< without contact forces, relative to the cell size
+    double last_tolerance   = 0.;
     double last_residual      = 0.;
     bool tangential_forces    = false; ///< whether any has been found in this step
   };

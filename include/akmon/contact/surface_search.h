@@ -45,7 +45,9 @@ namespace akmon
 
     /// For every slave the faces within the radius, from boxes around the faces at positions @p x.
     void
-    build_candidates(const ContactNodes &nodes, const ContactNodes::Field &x);
+    build_candidates(const ContactNodes &nodes,
+                     const NodalVector &positions,
+                     const ContactNodes::Field &x);
 
     /**
      * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
@@ -121,6 +123,11 @@ namespace akmon
                     const unsigned int slave,
                     const dealii::Tensor<1, 3> &outward,
                     Partner &partner) const;
+    bool
+    may_face(const ContactNodes::Field &x,
+             const MasterFace &face,
+             const unsigned int slave_number,
+             const dealii::Tensor<1, 3> &outward) const;
     bool
     locate(const ContactNodes::Field &x,
            const unsigned int slave,

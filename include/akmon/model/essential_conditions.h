@@ -91,6 +91,10 @@ namespace akmon
     constrain(const unsigned int node,
               const unsigned int motion,
               const dealii::Tensor<1, 3> &direction);
+    dealii::Tensor<1, 3>
+    function_value(const unsigned int motion, const NodalState &state, const dealii::Point<3> &X) const;
+    void
+    evaluate_uniform_functions(const NodalState &state);
     double
     prescribed_increment(const Direction &direction,
                          const NodalState &state,
@@ -100,5 +104,6 @@ namespace akmon
     const std::vector<PrescribedMotion> &motions;
     std::vector<ConstrainedNode> nodes;      ///< owned nodes only
     std::vector<unsigned int> index_of_node; ///< in nodes, or invalid
+    std::vector<dealii::Tensor<1, 3>> uniform_values; ///< of the motions, for the step in work
   };
 } // namespace akmon
