@@ -206,11 +206,15 @@ namespace akmon
       {
         while (old != previous.end() && key(*old) < key(pair))
           ++old;
-        if (old != previous.end() && key(*old) == key(pair))
+        const bool known = old != previous.end() && key(*old) == key(pair);
+        if (known)
           {
             pair.normal_force     = old->normal_force;
             pair.tangential_force = old->tangential_force;
           }
+        // A pair that is just closing will not move on as it did.
+        if (pair.normal_force == 0.)
+          pair.curvature = 0.;
       }
   }
 
@@ -234,8 +238,8 @@ namespace akmon
       {
         const double c = discretization.material_of(discretization.body_of_node[pair.slave])
                            .dilatational_wave_speed();
-        pair.target_gap =
-          pair.curvature + std::max(pair.gap, -solver.release_speed * c * state.dt_next);
+        pair.target_gap = pair.curvature +
+                          std::max(pair.gap, -solver.release_speed * c * state.dt_next);
       }
   }
 

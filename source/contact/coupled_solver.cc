@@ -38,7 +38,10 @@ namespace akmon
           indices.push_back(i);
         }
       else
-        pairs[i].normal_force = 0.;
+        {
+          pairs[i].normal_force     = 0.;
+          pairs[i].tangential_force = Tensor<1, 3>();
+        }
   }
 
 
@@ -58,14 +61,14 @@ namespace akmon
     isolated = delassus.isolated_pairs();
     weights.resize(participants.size());
     for (std::size_t i = 0; i < participants.size(); ++i)
-      weights[i] =
-        delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * participants[i]->size) : 0.;
+      weights[i] = delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * participants[i]->size) :
+                                              0.;
     complementarity(dx_free);
   }
 
 
-  // Gaps are to be exact relative to the cell, forces relative to themselves: what remains of a violation
-  // over the violation without contact forces is the relative error of the forces.
+  // Gaps are to be exact relative to the cell, forces relative to themselves: what remains of a
+  // violation over the violation without contact forces is the relative error of the forces.
   double
   CoupledSolver::tolerance_for(const double violation) const
   {
@@ -95,7 +98,7 @@ namespace akmon
       {
         const auto &pair = *participants[i];
         b[i] += s[i] * (pair.normal * pair.relative(dx_free) + pair.target_gap);
-        tau[i] = s[i] > 0. ? pair.normal_force / s[i] : 0.;
+        tau[i]           = s[i] > 0. ? pair.normal_force / s[i] : 0.;
         normal_violation = std::max(normal_violation, -weights[i] * b[i]);
       }
     last_tolerance = tolerance_for(normal_violation);
@@ -139,7 +142,11 @@ namespace akmon
       if (participants[i]->normal_force > 0.)
         largest = std::max(largest, friction_coefficients[indices[i]]);
     if (Utilities::MPI::max(largest, nodes.get_communicator()) == 0.)
-      return;
+      {
+        for (ContactPair *const pair : participants)
+          pair->tangential_force = Tensor<1, 3>();
+        return;
+      }
 
     constexpr unsigned int max_rounds = 10;
     for (unsigned int round = 0; round < max_rounds; ++round)

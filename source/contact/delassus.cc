@@ -74,10 +74,9 @@ namespace akmon
     nodes.update_ghosts(field);
     std::vector<bool> result;
     for (const ContactPair *const pair : pairs)
-      result.push_back(
-        std::all_of(pair->nodes.begin(), pair->nodes.begin() + pair->n_nodes, [&](const auto number) {
-          return field[number][0] == 1.;
-        }));
+      result.push_back(std::all_of(pair->nodes.begin(),
+                                   pair->nodes.begin() + pair->n_nodes,
+                                   [&](const auto number) { return field[number][0] == 1.; }));
     return result;
   }
 

@@ -319,6 +319,7 @@ namespace akmon
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, found))
       all.insert(all.end(), of_rank.begin(), of_rank.end());
     std::vector<double> depths;
+    depths.reserve(all.size());
     for (const auto &sample : all)
       depths.push_back(boundaries.distance(sample.place, sample.outside));
     Utilities::MPI::min(depths, communicator, depths);

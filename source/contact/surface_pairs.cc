@@ -53,29 +53,30 @@ namespace akmon
     constexpr double opposed = 0.02; // cosine: sides of an edge do not look at each other
 
     const auto point = x[slaves[slave].number];
-    double best             = std::numeric_limits<double>::max();
+    double best      = std::numeric_limits<double>::max();
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const auto &face = masters[candidates[i]];
+        const auto &face      = masters[candidates[i]];
         const Segment corners = segment(x, face);
-        const auto normal = area_vector(corners);
+        const auto normal     = area_vector(corners);
         if (normal * outward > -opposed * normal.norm() * outward.norm())
           continue;
         // No point of the face is closer than its middle less the way to its furthest corner.
-        const auto middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-        const double least =
-          (point - middle).norm() - std::sqrt(std::max({(corners[0] - middle).norm_square(),
-                                                        (corners[1] - middle).norm_square(),
-                                                        (corners[2] - middle).norm_square(),
-                                                        (corners[3] - middle).norm_square()}));
+        const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+        const double least = (point - middle).norm() -
+                             std::sqrt(std::max({(corners[0] - middle).norm_square(),
+                                                 (corners[1] - middle).norm_square(),
+                                                 (corners[2] - middle).norm_square(),
+                                                 (corners[3] - middle).norm_square()}));
         if (least > 0. && least * least > best)
           continue;
         const Projection projection = project(point, corners);
         const double distance       = projection.offset.norm_square();
         if (distance < best)
           {
-            best    = distance;
-            partner = {candidates[i], projection};
+            best               = distance;
+            partner.face       = candidates[i];
+            partner.projection = projection;
           }
       }
     return best < std::numeric_limits<double>::max();

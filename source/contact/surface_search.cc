@@ -72,7 +72,8 @@ namespace akmon
     : discretization(discretization)
     , contact(contact)
     , interface(interface)
-    , reversed(reversed), follow_curvature(follow_curvature)
+    , reversed(reversed)
+    , follow_curvature(follow_curvature)
     , slave_faces(select_faces(discretization, contact, "Slave", contact.slaves))
     , master_faces(select_faces(discretization, contact, "Master", contact.masters))
   {
@@ -246,9 +247,9 @@ namespace akmon
   }
 
 
-  // Whether a face can come to look at a slave before the candidates are built anew. On a surface in
-  // contact with itself most faces nearby are the slave's own neighbours: they look the same way, and no
-  // motion within the radius turns them round.
+  // Whether a face can come to look at a slave before the candidates are built anew. On a surface
+  // in contact with itself most faces nearby are the slave's own neighbours: they look the same
+  // way, and no motion within the radius turns them round.
   bool
   SurfaceSearch::may_face(const ContactNodes::Field &x,
                           const MasterFace &face,

@@ -144,7 +144,7 @@ namespace akmon
                                       const NodalState &state,
                                       const Point<3> &X) const
   {
-    const auto &of   = motions[motion];
+    const auto &of  = motions[motion];
     const double dt = state.dt_next;
     return of.function.vector(X,
                               of.type == PrescribedMotion::Type::velocity ? state.time + 0.5 * dt :
@@ -158,7 +158,7 @@ namespace akmon
   {
     uniform_values.resize(motions.size());
     for (unsigned int m = 0; m < motions.size(); ++m)
-      if (motions[m].function.uniform())
+      if (motions[m].type != PrescribedMotion::Type::symmetry && motions[m].function.uniform())
         uniform_values[m] = function_value(m, state, Point<3>());
   }
 
@@ -179,8 +179,8 @@ namespace akmon
             sum += weight * (X - x);
             continue;
           }
-        const auto value =
-          motions[k].function.uniform() ? uniform_values[k] : function_value(k, state, X);
+        const auto value = motions[k].function.uniform() ? uniform_values[k] :
+                                                           function_value(k, state, X);
         sum += type == PrescribedMotion::Type::velocity ? weight * value * state.dt_next :
                                                           weight * (X + value - x);
       }

@@ -45,6 +45,16 @@ namespace
   constexpr double initial_gap = 0.01, dt = 0.1;
 
 
+  ContactSolver
+  decoupled(const double release_speed)
+  {
+    ContactSolver solver;
+    solver.type          = ContactSolver::Type::decoupled;
+    solver.release_speed = release_speed;
+    return solver;
+  }
+
+
   // The owned nodes of some faces, as Contact numbers them.
   std::vector<unsigned int>
   owned_nodes(const std::vector<BoundaryFace> &faces)
@@ -66,7 +76,8 @@ namespace
              const SurfaceContact &law,
              const std::vector<PrescribedMotion> &motions = {},
              const double release_speed                   = 1e-4)
-      : contacts({law})
+      : solver(decoupled(release_speed))
+      , contacts({law})
       , motions(motions)
       , discretization({cube("left", Vector(), "light"),
                         cube("right", Vector({1. + initial_gap, 0., 0.}) + shift, "heavy")},
@@ -79,8 +90,6 @@ namespace
       , integrator(discretization, state, 0.)
       , velocity(discretization.make_vector())
     {
-      solver.type          = ContactSolver::Type::decoupled;
-      solver.release_speed = release_speed;
       for (unsigned int node = 0; node < discretization.n_nodes; ++node)
         for (unsigned int d = 0; d < 3; ++d)
           velocity.local_element(
@@ -151,7 +160,7 @@ namespace
       return sum / integrator.effective_mass_factor();
     }
 
-    ContactSolver solver;
+    const ContactSolver solver;
     const std::vector<SurfaceContact> contacts;
     const std::vector<RigidPlane> planes; // none
     const std::vector<PrescribedMotion> motions;

@@ -68,9 +68,9 @@ namespace akmon
     // A pair that shares no node with another has a closed solution, which is exact.
     template <typename Set>
     void
-    set_isolated(const Set &                                set,
-                 const std::vector<typename Set::Unknown> & b,
-                 std::vector<typename Set::Unknown> &       tau) const
+    set_isolated(const Set &set,
+                 const std::vector<typename Set::Unknown> &b,
+                 std::vector<typename Set::Unknown> &tau) const
     {
       for (std::size_t i = 0; i < tau.size(); ++i)
         if (isolated[i])
@@ -86,8 +86,8 @@ namespace akmon
     std::vector<double> weights;
     double norm               = 0.;
     unsigned int n_iterations = 0;
-    double normal_violation = 0.; ///< without contact forces, relative to the cell size
-    double last_tolerance   = 0.;
+    double normal_violation   = 0.; ///< without contact forces, relative to the cell size
+    double last_tolerance     = 0.;
     double last_residual      = 0.;
     bool tangential_forces    = false; ///< whether any has been found in this step
   };

@@ -27,7 +27,7 @@ namespace akmon
     double gap;                  ///< n . g_0, negative when penetrating; length
     double size;                 ///< of the cell faces at the slave; length
 
-    double curvature = 0.;      ///< second-order part of the gap the step reaches; length
+    double curvature    = 0.; ///< second-order part of the gap the step reaches; length
     double target_gap   = 0.; ///< gap of which no more may be lost in this step; length
     double normal_force = 0.; ///< t_n, on the slave along the normal; force
     dealii::Tensor<1, 3> tangential_force; ///< t_tau, on the slave; force

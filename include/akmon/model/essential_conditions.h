@@ -92,7 +92,9 @@ namespace akmon
               const unsigned int motion,
               const dealii::Tensor<1, 3> &direction);
     dealii::Tensor<1, 3>
-    function_value(const unsigned int motion, const NodalState &state, const dealii::Point<3> &X) const;
+    function_value(const unsigned int motion,
+                   const NodalState &state,
+                   const dealii::Point<3> &X) const;
     void
     evaluate_uniform_functions(const NodalState &state);
     double
@@ -102,8 +104,8 @@ namespace akmon
 
     const Discretization &discretization;
     const std::vector<PrescribedMotion> &motions;
-    std::vector<ConstrainedNode> nodes;      ///< owned nodes only
-    std::vector<unsigned int> index_of_node; ///< in nodes, or invalid
+    std::vector<ConstrainedNode> nodes;               ///< owned nodes only
+    std::vector<unsigned int> index_of_node;          ///< in nodes, or invalid
     std::vector<dealii::Tensor<1, 3>> uniform_values; ///< of the motions, for the step in work
   };
 } // namespace akmon

@@ -1,0 +1,40 @@
+#!/usr/bin/env bash
+# clang-tidy 14 over the sources of the time step, with the checks of .clang-tidy; any finding fails.
+# Usage: tidy.sh SOURCE_DIR BUILD_DIR [SOURCE_FILE]...      Exit status 77 (skipped) without clang-tidy 14.
+set -euo pipefail
+source_dir=$1
+build_dir=$2
+shift 2
+
+tidy=''
+for candidate in clang-tidy-14 clang-tidy; do
+  if command -v "$candidate" >/dev/null && [[ $("$candidate" --version) == *"version 14."* ]]; then
+    tidy=$candidate
+    break
+  fi
+done
+if [[ -z $tidy ]]; then
+  echo "skipped: no clang-tidy 14 here (Debian 12: apt install clang-tidy)"
+  exit 77
+fi
+
+# GCC's precompiled header is nothing for clang: every source must, and does, stand without it.
+database=$build_dir/tidy
+mkdir -p "$database"
+sed -E 's/ -Winvalid-pch//g; s/ -include [^ "]*cmake_pch\.hxx//g; s/ -Wno-(maybe-)?uninitialized//g' \
+  "$build_dir/compile_commands.json" >"$database/compile_commands.json"
+
+cd "$source_dir"
+files=("$@")
+if ((${#files[@]} == 0)); then
+  mapfile -t files < <(find source/contact source/time source/material source/forces -name '*.cc' | sort)
+fi
+findings=$database/findings.txt
+status=0
+printf '%s\n' "${files[@]}" |
+  xargs -P "$(nproc)" -n 1 "$tidy" -p "$database" --quiet --warnings-as-errors='*' >"$findings" 2>&1 || status=$?
+if ((status)); then
+  grep -v -E '^[0-9]+ warnings? |^Suppressed |^Use -header-filter' "$findings" | cut -c 1-240
+  exit 1
+fi
+echo "${#files[@]} files have no findings"
