@@ -5,7 +5,8 @@ set -euo pipefail
 source_dir=$1
 build_dir=$2
 compiler=$3
-tests=(arc_end_test j2_plastic_test projection_test output_test fidcd_test)
+tests=(arc_end_test arc_end_objectivity_test arc_end_as_printed_test j2_plastic_test j2_plastic_arc_end_test
+  projection_test output_test fidcd_test)
 
 options=()
 if command -v ccache >/dev/null; then

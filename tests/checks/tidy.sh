@@ -21,7 +21,7 @@ fi
 # GCC's precompiled header is nothing for clang: every source must, and does, stand without it.
 database=$build_dir/tidy
 mkdir -p "$database"
-sed -E 's/ -Winvalid-pch//g; s/ -include [^ "]*cmake_pch\.hxx//g; s/ -Wno-(maybe-)?uninitialized//g' \
+sed -E 's/ -Winvalid-pch//g; s/ -include [^ "]*cmake_pch\.hxx//g; s/ -Wno-(maybe-)?uninitialized//g; s/ -Werror / /g' \
   "$build_dir/compile_commands.json" >"$database/compile_commands.json"
 
 cd "$source_dir"

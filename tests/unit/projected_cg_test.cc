@@ -1,32 +1,28 @@
-#include <akmon/contact/contact.h>
-#include <akmon/contact/delassus.h>
 #include <akmon/contact/projected_cg.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <random>
-#include <set>
+#include <utility>
 #include <vector>
+
+#include "support/report.h"
 
 // The solver of the coupled contact problem alone: small complementarity problems, regular and
 // singular, against the enumeration of all active sets; friction discs against a plain projected
-// gradient run to the end; and the bound of the Delassus operator's norm that it is given.
+// gradient run to the end.
 
 namespace
 {
   using namespace akmon;
+  using namespace akmon::test;
+
   using Vector = dealii::Tensor<1, 3>;
   using Matrix = std::vector<std::vector<double>>;
 
   constexpr double tolerance = 1e-12;
-
-  void
-  report(const std::string &name, const double value)
-  {
-    std::cout << "  " << name << " " << value << std::endl;
-  }
 
 
   double
@@ -355,210 +351,4 @@ namespace
     EXPECT_GT(set.longest_step(0, t, p), 0.);
     EXPECT_GT(set.longest_step(0, t, Vector()), 1e300);
   }
-
-
-  // ---------------------------------------------------------------------------------------------
-  // The Delassus operator of two boxes on each other
-  // ---------------------------------------------------------------------------------------------
-
-  Body
-  box(const std::string &name, const double z, const std::array<unsigned int, 3> &cells)
-  {
-    BoxShape shape;
-    shape.size  = Vector({1., 1., 1.});
-    shape.cells = cells;
-    Body body;
-    body.name       = name;
-    body.mesh.shape = shape;
-    body.position   = Vector({0., 0., z});
-    body.rotation   = dealii::unit_symmetric_tensor<3>();
-    body.material   = "stuff";
-    return body;
-  }
-
-
-  struct Boxes
-  {
-    Boxes(const unsigned int n, const unsigned int m, const std::vector<PrescribedMotion> &motions)
-      : motions(motions)
-      , discretization({box("lower", -0.5, {{n, n, 1}}), box("upper", 0.5, {{m, m, 1}})},
-                       {material()},
-                       MPI_COMM_SELF)
-      , conditions(discretization, this->motions)
-      , nodes(discretization, surface_nodes())
-      , mobility(discretization, conditions)
-      , delassus(nodes, mobility)
-    {
-      mobility.reinit(nodes);
-      // Contact refers to what it is given.
-      const ContactSolver solver; // as by default: coupled
-      const std::vector<SurfaceContact> contacts = {touching()};
-      const std::vector<RigidPlane> planes;
-      Contact contact(discretization, solver, contacts, planes, conditions);
-      contact.search(NodalState(discretization));
-      pairs = contact.get_pairs();
-      std::vector<ContactPair *> all;
-      for (auto &pair : pairs)
-        all.push_back(&pair);
-      delassus.reinit(all, mass_factor);
-    }
-
-    static SurfaceContact
-    touching()
-    {
-      SurfaceContact contact;
-      contact.name          = "touch";
-      contact.slaves        = {"upper:z-"};
-      contact.masters       = {"lower:z+"};
-      contact.rim_tolerance = 0.01;
-      return contact;
-    }
-
-    static Material
-    material()
-    {
-      Material material;
-      material.name    = "stuff";
-      material.density = 2.;
-      material.law     = Hypoelastic{Elasticity::from_young(1., 0.3)};
-      return material;
-    }
-
-    std::vector<unsigned int>
-    surface_nodes() const
-    {
-      std::set<dealii::types::boundary_id> ids;
-      ids.merge(discretization.boundary_ids("", "", "upper:z-"));
-      ids.merge(discretization.boundary_ids("", "", "lower:z+"));
-      std::set<unsigned int> nodes;
-      for (const auto &face : discretization.faces_on(ids))
-        nodes.insert(face.nodes.begin(), face.nodes.end());
-      return {nodes.begin(), nodes.end()};
-    }
-
-    static constexpr double mass_factor = 37.;
-    const std::vector<PrescribedMotion> motions;
-    Discretization discretization;
-    EssentialConditions conditions;
-    ContactNodes nodes;
-    Mobility mobility;
-    Delassus delassus;
-    std::vector<ContactPair> pairs;
-  };
-
-
-  double
-  dot(const std::vector<double> &a, const std::vector<double> &b)
-  {
-    double sum = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      sum += a[i] * b[i];
-    return sum;
-  }
-
-
-  double
-  dot(const std::vector<Vector> &a, const std::vector<Vector> &b)
-  {
-    double sum = 0.;
-    for (std::size_t i = 0; i < a.size(); ++i)
-      sum += a[i] * b[i];
-    return sum;
-  }
-
-
-  // Rayleigh's quotient after many power steps: the largest eigenvalue, from below.
-  template <typename T, typename Operator>
-  double
-  power_iteration(std::vector<T> t, const Operator &apply)
-  {
-    std::vector<T> y(t.size());
-    double quotient = 0.;
-    for (unsigned int k = 0; k < 500; ++k)
-      {
-        apply(t, y);
-        quotient          = dot(t, y) / dot(t, t);
-        const double size = std::sqrt(dot(y, y));
-        for (std::size_t i = 0; i < t.size(); ++i)
-          t[i] = y[i] / size;
-      }
-    return quotient;
-  }
-
-
-  class DelassusOfBoxes : public testing::TestWithParam<std::pair<unsigned int, unsigned int>>
-  {
-  protected:
-    void
-    check(Boxes &boxes)
-    {
-      const std::size_t n = boxes.pairs.size();
-      std::mt19937 random(5);
-      std::normal_distribution<double> normal;
-      std::vector<double> a(n), b(n), Aa(n), Ab(n);
-      std::vector<Vector> t(n);
-      for (std::size_t i = 0; i < n; ++i)
-        {
-          a[i] = normal(random);
-          b[i] = normal(random);
-          t[i] = boxes.pairs[i].tangential_part(
-            Vector({normal(random), normal(random), normal(random)}));
-        }
-      auto &delassus = boxes.delassus;
-      delassus.apply_normal(a, Aa);
-      delassus.apply_normal(b, Ab);
-      EXPECT_NEAR(dot(a, Ab), dot(b, Aa), 1e-12 * std::sqrt(dot(Aa, Aa) * dot(b, b)));
-      EXPECT_GE(dot(a, Aa), 0.);
-      // A unit diagonal.
-      for (std::size_t i = 0; i < n; ++i)
-        {
-          std::vector<double> unit(n, 0.), column(n);
-          unit[i] = 1.;
-          delassus.apply_normal(unit, column);
-          EXPECT_NEAR(column[i], 1., 1e-14);
-        }
-
-      const double bound              = delassus.norm_bound();
-      const double largest_normal     = power_iteration(a, [&](const auto &u, auto &v) {
-        delassus.apply_normal(u, v);
-      });
-      const double largest_tangential = power_iteration(t, [&](const auto &u, auto &v) {
-        delassus.apply_tangential(u, v);
-      });
-      report("bound over norm, normal", bound / largest_normal);
-      report("bound over norm, tangential", bound / largest_tangential);
-      EXPECT_GE(bound, largest_normal * (1. - 1e-12));
-      EXPECT_GE(bound, largest_tangential * (1. - 1e-12));
-      EXPECT_LE(bound, 4. * largest_normal);
-    }
-  };
-
-
-  TEST_P(DelassusOfBoxes, is_symmetric_with_unit_diagonal_and_bounded)
-  {
-    const auto [n, m] = GetParam();
-    Boxes boxes(n, m, {});
-    EXPECT_EQ(boxes.pairs.size(), (n + 1) * (n + 1) + (m + 1) * (m + 1));
-    check(boxes);
-  }
-
-
-  TEST_P(DelassusOfBoxes, is_bounded_with_prescribed_motion_too)
-  {
-    PrescribedMotion guide;
-    guide.name        = "guide";
-    guide.type        = PrescribedMotion::Type::symmetry;
-    guide.surfaces    = {"lower:x-", "upper:x-", "lower:y+"};
-    const auto [n, m] = GetParam();
-    Boxes boxes(n, m, {guide});
-    check(boxes);
-  }
-
-
-  INSTANTIATE_TEST_SUITE_P(Meshes,
-                           DelassusOfBoxes,
-                           testing::Values(std::make_pair(1u, 1u),
-                                           std::make_pair(2u, 3u),
-                                           std::make_pair(4u, 3u),
-                                           std::make_pair(5u, 2u)));
 } // namespace
