@@ -18,6 +18,7 @@ namespace akmon
     Id n = owned.size(), first = 0;
     const Id total = Utilities::MPI::sum(n, communicator);
     MPI_Exscan(&n, &first, 1, Utilities::MPI::mpi_type_id_for_type<Id>, MPI_SUM, communicator);
+    parallel = parallel && total > 0;
     owned_indices.set_size(3 * total);
     owned_indices.add_range(3 * first, 3 * (first + n));
 
@@ -43,6 +44,12 @@ namespace akmon
           others.push_back(3 * id + d);
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
+    if (owned_indices.size() == 0)
+      {
+        // No contact at all; deal.II's ghost exchange divides by the size.
+        partitioner = std::make_shared<Utilities::MPI::Partitioner>();
+        return;
+      }
     IndexSet ghosts(owned_indices.size());
     ghosts.add_indices(others.begin(), others.end());
     partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned_indices,
