@@ -91,8 +91,9 @@ namespace akmon
     const auto &dof_handler   = discretization.dof_handler;
     NodalVector displacement  = state.x;
     displacement -= discretization.reference;
-    NodalVector velocity = nodal_velocity(), scalars = contact_scalars(state),
-                traction = contact_traction(state);
+    const auto areas     = contact_areas(state);
+    NodalVector velocity = nodal_velocity(), scalars = contact_scalars(areas),
+                traction = contact_traction(areas);
     for (NodalVector *const vector : {&displacement, &velocity, &scalars, &traction})
       vector->update_ghost_values();
 
@@ -184,10 +185,9 @@ namespace akmon
 
 
   NodalVector
-  Fields::contact_scalars(const NodalState &state) const
+  Fields::contact_scalars(const std::vector<double> &areas) const
   {
     NodalVector scalars = discretization.make_vector();
-    const auto areas    = contact_areas(state);
     for (const auto &force : contact.nodal_forces())
       scalars.local_element(3 * force.node) = force.normal.norm() / areas[force.node];
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
@@ -205,10 +205,9 @@ namespace akmon
 
 
   NodalVector
-  Fields::contact_traction(const NodalState &state) const
+  Fields::contact_traction(const std::vector<double> &areas) const
   {
     NodalVector traction = discretization.make_vector();
-    const auto areas     = contact_areas(state);
     for (const auto &force : contact.nodal_forces())
       for (unsigned int d = 0; d < 3; ++d)
         traction.local_element(3 * force.node + d) = (force.normal[d] + force.tangential[d]) /

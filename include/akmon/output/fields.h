@@ -32,9 +32,9 @@ namespace akmon
     /// Components: contact pressure (force/area), gap (length, NaN without partner), status (0
     /// open, 1 slip, 2 stick).
     NodalVector
-    contact_scalars(const NodalState &state) const;
+    contact_scalars(const std::vector<double> &areas) const;
     NodalVector
-    contact_traction(const NodalState &state) const;
+    contact_traction(const std::vector<double> &areas) const;
     std::vector<double>
     contact_areas(const NodalState &state) const;
 

@@ -64,12 +64,6 @@ namespace akmon
       return worst;
     }
 
-    const EnergyBalance &
-    energies() const
-    {
-      return balance;
-    }
-
     /// Pairs that carried a force at the last level (this rank's).
     unsigned int
     active_pairs() const
