@@ -23,13 +23,12 @@ namespace akmon
                               at_node(state.dx, node).norm_square(),
                               at_node(state.dx_next, node).norm_square()});
         fastest = std::sqrt(Utilities::MPI::max(fastest, discretization.communicator()));
-        // Two surfaces can approach each other at twice the speed of the faster one, and may do
-        // several times that when they are pushed.
-        reach = 8. * fastest;
+        // Two surfaces can approach each other at twice the speed of the faster one.
         moved += 2. * fastest;
         travelled += 2. * fastest;
         for (const auto &search : searches)
           least_radius = std::min(least_radius, search.radius());
+        reach = reach_of_step(state, least_radius);
         if (moved + reach > least_radius)
           prepared = false;
       }
@@ -48,6 +47,18 @@ namespace akmon
     find_plane_pairs(state);
     if (solver.type == ContactSolver::Type::coupled)
       warm_start(previous);
+  }
+
+
+  // What the coming step may move surfaces by, whose forces are not known yet: several times what
+  // any node does, surfaces at rest that are pushed from inside included, and part of a cell where
+  // all are at rest.
+  double
+  Contact::reach_of_step(const NodalState &state, const double least_radius) const
+  {
+    constexpr double part = 0.02;
+    const double fastest  = std::max(state.dx.linfty_norm(), state.dx_next.linfty_norm());
+    return std::max(8. * fastest, part * least_radius);
   }
 
 
