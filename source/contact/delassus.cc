@@ -105,12 +105,15 @@ namespace akmon
     nodes.update_ghosts(field);
     std::vector<bool> result;
     for (const ContactPair *const pair : pairs)
-      result.push_back(!pair->levered && std::all_of(pair->nodes.begin(),
-                                                     pair->nodes.begin() + pair->n_nodes,
-                                                     [&](const auto number) {
-                                                       return field[number][0] == 1. &&
-                                                              mobility.is_free(number);
-                                                     }));
+      {
+        // A node alone may be guided along the contact plane.
+        bool isolated = !pair->levered;
+        for (unsigned int k = 0; k < pair->n_nodes; ++k)
+          isolated = isolated && field[pair->nodes[k]][0] == 1. &&
+                     (pair->n_nodes == 1 ? mobility.is_free_along(pair->nodes[k], pair->normal) :
+                                           mobility.is_free(pair->nodes[k]));
+        result.push_back(isolated);
+      }
     return result;
   }
 

@@ -46,7 +46,7 @@ namespace akmon
     norm_bound();
 
     /// Pairs whose nodes belong to no other pair and move alike in all directions: A_ii is a
-    /// multiple of the identity (collective).
+    /// multiple of the identity, at least where they can move (collective).
     std::vector<bool>
     isolated_pairs();
 

@@ -46,6 +46,16 @@ namespace akmon
              W_i[0][1] == 0. && W_i[0][2] == 0. && W_i[1][2] == 0.;
     }
 
+    /// Whether what a node moves by along a normal is not coupled with the rest: the normal is
+    /// free.
+    bool
+    is_free_along(const unsigned int number, const dealii::Tensor<1, 3> &normal) const
+    {
+      const auto moved = W[number] * normal;
+      const double w_n = normal * moved;
+      return w_n > 0. && (moved - w_n * normal).norm() <= 1e-14 * w_n;
+    }
+
     /// d . A_ii d of a pair along a unit direction d, for m* = m times @p mass_factor;
     /// length/force.
     double
