@@ -86,7 +86,7 @@ namespace akmon
                               CellBatches &batches,
                               NodalVector &force)
   {
-    CellPassSums sums;
+    CellPassSums<Lanes> sums;
     Lanes largest(0.);
     to_calibrate.clear();
     for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
@@ -95,10 +95,10 @@ namespace akmon
         gather(x.begin(), batches.nodes(batch), positions);
         gather(dx.begin(), batches.nodes(batch), increments);
 
-        const CellGeometry<Lanes> cell(positions, increments);
-        const Lanes owned          = Lanes::load_aligned(&batches.owned[batch * n_lanes]);
-        const Lanes strain_squared = update_stress_and_force<mean_dilatation>(law,
-                                                                              cell,
+        const Lanes owned = Lanes::load_aligned(&batches.owned[std::size_t(batch) * n_lanes]);
+        const CellStep<Lanes> cell = update_stress_and_force<mean_dilatation>(law,
+                                                                              positions,
+                                                                              increments,
                                                                               owned,
                                                                               batches.state_at(
                                                                                 batch),
@@ -116,7 +116,7 @@ namespace akmon
                 break;
               }
 
-        const auto recalibrate = bound_frequency(strain_squared, batches, batch, largest);
+        const auto recalibrate = bound_frequency(cell.strain_squared, batches, batch, largest);
         if (xsimd::any(recalibrate))
           to_calibrate.emplace_back(batch, recalibrate);
       }
