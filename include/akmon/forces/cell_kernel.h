@@ -11,8 +11,9 @@ namespace akmon
   template <typename N>
   struct CellPassSums
   {
-    N internal_work = N(0.); ///< stress power of the step, energy
-    N plastic_work  = N(0.); ///< its plastic part, energy
+    N internal_work  = N(0.); ///< stress power of the step, energy
+    N plastic_work   = N(0.); ///< its plastic part, energy
+    N hourglass_work = N(0.); ///< of the hourglass control of one-point cells, energy
   };
 
 
@@ -32,6 +33,17 @@ namespace akmon
     for (unsigned int v = 0; v < 8; ++v)
       for (unsigned int c = 0; c < 3; ++c)
         values[v][c] = Lanes::load_aligned(buffer[v][c]);
+  }
+
+
+  /// Ask for what the next batch needs of a nodal vector: its nodes lie all over the memory, and
+  /// the processor's own prefetching does not know of them.
+  inline void
+  prefetch_nodes(const double *vector, const CellBatches::NodeOffsets &nodes)
+  {
+    for (unsigned int v = 0; v < 8; ++v)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        __builtin_prefetch(vector + nodes[v][lane]);
   }
 
 
@@ -85,7 +97,7 @@ namespace akmon
   template <typename N>
   struct CellGeometry
   {
-    static constexpr unsigned int n_points = CellBatches::n_points;
+    static constexpr unsigned int n_points = CellBatches::n_gauss_points;
 
     TrilinearGradients<N> end;       ///< of x_{n+1}
     TrilinearGradients<N> increment; ///< of dx_n
@@ -119,7 +131,7 @@ namespace akmon
   template <typename N>
   struct PointKinematics
   {
-    static constexpr unsigned int n_points = CellBatches::n_points;
+    static constexpr unsigned int n_points = CellBatches::n_gauss_points;
 
     N jacobian_begin[n_points]; ///< det J_0
     N jacobian_end[n_points];   ///< det J_1
@@ -168,6 +180,7 @@ namespace akmon
   /**
    * Stress update at every Gauss point.
    * @param state  [q][component][lane] of this batch, from n to n+1
+   * @param ahead  state of the next batch, fetched meanwhile
    * @param owned  per lane, 1 where the cell counts in the sums
    * @param mean_pressure  sum_q w det(J_1) p_q / V of the new stresses
    * @return       largest E_mid : E_mid over the Gauss points
@@ -179,6 +192,7 @@ namespace akmon
                   const PointKinematics<N> &points,
                   const N &owned,
                   double *state,
+                  const double *ahead,
                   CellPassSums<N> &sums,
                   N &mean_pressure)
   {
@@ -186,9 +200,12 @@ namespace akmon
 
     N pressure_volume(0.), internal_work(0.), plastic_work(0.), strain_squared(0.);
 #pragma GCC unroll 8
-    for (unsigned int q = 0; q < CellBatches::n_points; ++q)
+    for (unsigned int q = 0; q < CellBatches::n_gauss_points; ++q)
       {
         double *const point = state + q * n_components * n_lanes_of<N>;
+        for (unsigned int c = 0; c < n_components; ++c)
+          __builtin_prefetch(ahead + (q * n_components + c) * n_lanes_of<N>, 1);
+
         Symmetric3<N> stress;
         for (unsigned int c = 0; c < 6; ++c)
           load(point + c * n_lanes_of<N>, stress[c]);
@@ -232,7 +249,7 @@ namespace akmon
     TrilinearGradients<N> weights;
     weights.clear();
 #pragma GCC unroll 8
-    for (unsigned int q = 0; q < CellBatches::n_points; ++q)
+    for (unsigned int q = 0; q < CellBatches::n_gauss_points; ++q)
       {
         const double *const point = state + q * n_components * n_lanes_of<N>;
         Symmetric3<N> stress;
@@ -262,6 +279,7 @@ namespace akmon
    * @param x, dx  x_{n+1} and dx_n [node][component], length
    * @param owned  per lane, 1 where the cell counts in the sums
    * @param state  [q][component][lane] of this batch, from n to n+1
+   * @param ahead  state of the next batch, fetched meanwhile; any batch's
    * @param force  internal forces of the cells' nodes
    */
   template <bool mean_dilatation, typename Law, typename N>
@@ -271,6 +289,7 @@ namespace akmon
                           const N (&dx)[8][3],
                           const N &owned,
                           double *state,
+                          const double *ahead,
                           CellPassSums<N> &sums,
                           N (&force)[8][3])
   {
@@ -278,7 +297,8 @@ namespace akmon
     PointKinematics<N> points;
     points.template compute<mean_dilatation>(cell);
     N mean_pressure;
-    const N strain_squared = update_stresses(law, cell, points, owned, state, sums, mean_pressure);
+    const N
+      strain_squared = update_stresses(law, cell, points, owned, state, ahead, sums, mean_pressure);
     internal_force<mean_dilatation, Symmetric3<N>::n_components + Law::n_internals>(cell,
                                                                                     state,
                                                                                     mean_pressure,
