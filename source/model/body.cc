@@ -25,7 +25,7 @@ namespace akmon
                       dealii::Patterns::Selection("stiffness|viscous"),
                       "Form of the Flanagan-Belytschko hourglass control of one-point cells");
     prm.declare_entry("Hourglass coefficient",
-                      "0.05",
+                      "0.02",
                       dealii::Patterns::Double(0., 0.15),
                       "Coefficient kappa of the hourglass control (dimensionless)");
     prm.declare_entry("Refinement",

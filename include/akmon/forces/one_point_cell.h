@@ -145,10 +145,14 @@ namespace akmon
    * g_i = gamma . dx_i the motion of the step in a pattern, the nodal forces f_ia = Q_i gamma_a
    * have per pattern and component
    *
-   *     stiffness:  Q = R Q_n + kappa (lambda + 2 mu) B g/(8 V)       B = sum_a b_a . b_a, R the
-   * rotation of the step viscous:    Q = kappa rho c_d sqrt(2 B/3) g/(4 dt)
+   *     stiffness:  Q = beta (R Q_n + kappa (lambda + 2 mu) B g/(8 V)),     B = sum_a b_a . b_a
    *
-   * The viscous form is LS-DYNA's with coefficient kappa: Q h^2 rho c/4 for a cube of edge h.
+   *     viscous:    Q = kappa rho c_d sqrt(2 B/3) g/(4 dt)
+   *
+   * R is the rotation of the step and beta the part of the trial stress deviator that the law's
+   * return left. Springs that do not yield with the cell lock: the Taylor bar then ends as with
+   * full integration. The viscous form is LS-DYNA's with coefficient kappa: Q h^2 rho c/4 for a
+   * cube of edge h.
    */
   struct HourglassConstants
   {
@@ -168,6 +172,10 @@ namespace akmon
     double stiffness = 0.; ///< stress
     double viscosity = 0.; ///< stress/length
   };
+
+
+  /// Keeps the ratio of two stresses defined where there is none; no physical stress is smaller.
+  inline constexpr double smallest_stress_squared = 1e-280;
 
 
   /// Turn vectors by the rotation of the step, R = (I - W/2)^{-1} (I + W/2) with W = skew(L): exact
@@ -194,6 +202,8 @@ namespace akmon
 
   /**
    * The hourglass forces Q of a batch from n to n+1.
+   * @param left    part of the trial stress deviator that the law's return left: springs yield as
+   * the cell does
    * @param motion  g of the step [pattern][component]
    * @param Q       [pattern][component][lane] of this batch, memory; force
    * @param at_end  the new ones
@@ -203,6 +213,7 @@ namespace akmon
   [[gnu::always_inline]] inline N
   update_hourglass_forces(const HourglassConstants &constants,
                           const Matrix3<N> &L,
+                          const N &left,
                           const N (&motion)[4][3],
                           const VolumeGradient<N> &end,
                           double *Q,
@@ -218,11 +229,11 @@ namespace akmon
     for (unsigned int a = 0; a < 4; ++a)
       for (unsigned int i = 0; i < 3; ++i)
         {
-          const N half_step = 0.5 * stiffness * motion[a][i], viscous = viscosity * motion[a][i];
-          work += (at_end[a][i] + half_step + viscous) * motion[a][i];
-          at_end[a][i] += half_step + half_step;
-          store(at_end[a][i], Q + (3 * a + i) * n_lanes_of<N>);
-          at_end[a][i] += viscous;
+          const N viscous = viscosity * motion[a][i];
+          const N after   = left * (at_end[a][i] + stiffness * motion[a][i]);
+          work += (0.5 * (at_end[a][i] + after) + viscous) * motion[a][i];
+          store(after, Q + (3 * a + i) * n_lanes_of<N>);
+          at_end[a][i] = after + viscous;
         }
     return work;
   }
@@ -291,6 +302,12 @@ namespace akmon
     sums.internal_work += owned * (0.5 * (work_before + end.volume * contract(stress, strain)));
     sums.plastic_work += owned * (end.volume * plastic);
 
+    // With q = q_trial - 3 mu d_eps and the plastic work q d_eps the return leaves q/q_trial of the
+    // deviator.
+    const N q_squared = equivalent_stress_squared(stress);
+    const N left      = (q_squared + smallest_stress_squared) /
+                   (q_squared + 3. * law.elasticity.mu * plastic + smallest_stress_squared);
+
     // gamma . dx on the mid configuration, where L holds sum_a dx_a (x) b_a/V
     N motion[4][3], patterns[4][3], Q[4][3], motion_squared(0.);
     hourglass_sums(x_mid, patterns);
@@ -305,7 +322,8 @@ namespace akmon
             motion_squared += motion[a][i] * motion[a][i];
           }
       }
-    sums.hourglass_work += owned * update_hourglass_forces(constants, L, motion, end, hourglass, Q);
+    sums.hourglass_work += owned *
+                           update_hourglass_forces(constants, L, left, motion, end, hourglass, Q);
 
     const N inverse_end = 1. / end.volume;
     Matrix3<N> weight; // sigma - sum Q (x) (Gamma . x)/V

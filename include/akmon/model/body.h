@@ -39,7 +39,7 @@ namespace akmon
     std::string material;
     CellIntegration integration        = CellIntegration::mean_dilatation;
     HourglassControl hourglass_control = HourglassControl::stiffness;
-    double hourglass_coefficient       = 0.05; ///< kappa, dimensionless
+    double hourglass_coefficient       = 0.02; ///< kappa, dimensionless
 
     static void
     declare(dealii::ParameterHandler &prm);

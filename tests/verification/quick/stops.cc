@@ -54,6 +54,23 @@ namespace
   }
 
 
+  // Without history rows the energies are looked at all the same.
+  TEST(Run, stops_on_an_energy_error_without_history)
+  {
+    expect_stop({"Output/Energy error bound=1e-9", "Output/History steps=0"}, "energy error");
+  }
+
+
+  TEST(Run, stops_on_hourglass_energy_beyond_the_bound)
+  {
+    // Of plane waves only rounding excites the patterns, hence the tiny bound.
+    expect_stop({"Bodies/left/Integration=one point",
+                 "Bodies/right/Integration=one point",
+                 "Output/Hourglass energy bound=1e-30"},
+                "hourglass energy");
+  }
+
+
   TEST(Run, stops_on_inverted_cells)
   {
     expect_stop({"Time/Step=4e-6", "Output/Energy error bound=1e300"},
