@@ -1,5 +1,6 @@
 #include <akmon/forces/cell_kernel.h>
 #include <akmon/forces/one_point_cell.h>
+#include <akmon/material/j2_plastic.h>
 
 #include <gtest/gtest.h>
 

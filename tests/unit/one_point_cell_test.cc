@@ -1,4 +1,5 @@
 #include <akmon/forces/one_point_cell.h>
+#include <akmon/material/hypoelastic.h>
 
 #include <gtest/gtest.h>
 
