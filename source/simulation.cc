@@ -21,6 +21,7 @@ namespace akmon
     , friction(timer.add("contact.resolve_friction"))
     , correct(timer.add("integrator.correct"))
     , observe(timer.add("monitor.observe"))
+    , output(timer.add("output.write"))
   {
   }
 
@@ -122,6 +123,7 @@ namespace akmon
     integrator.finish_start(velocity_0);
     velocity_0.reinit(0);
     monitor->observe(false);
+    monitor->write(false);
   }
 
 
@@ -140,7 +142,7 @@ namespace akmon
     {
       const StageTimer::Scope timing(stages.forces); // 3
       state.force = 0.;
-      internal_forces.update(state.x, state.dx, state.force);
+      internal_forces.update(state.x, state.dx, state.force, state.dt);
       external_forces.add(state, state.force);
     }
     {
@@ -171,6 +173,10 @@ namespace akmon
       const StageTimer::Scope timing(stages.observe); // 9
       monitor->observe(parameters.time.finished(state.time));
     }
+    {
+      const StageTimer::Scope timing(stages.output);
+      monitor->write(parameters.time.finished(state.time));
+    }
     show_progress();
   }
 
@@ -180,7 +186,8 @@ namespace akmon
   {
     const double omega_squared = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
                                                      communicator);
-    state.dt_next              = parameters.time.choose(state.time, omega_squared);
+    internal_forces.govern(omega_squared);
+    state.dt_next = parameters.time.choose(state.time, omega_squared);
   }
 
 

@@ -19,6 +19,38 @@ namespace akmon
   /// Memory alignment that every lane array needs, bytes.
   constexpr std::size_t lane_alignment = n_lanes * sizeof(double);
 
+  /// Lanes of a number type: [component][lane] arrays of numbers N have this stride.
+  template <typename N>
+  constexpr unsigned int n_lanes_of = 1;
+
+  template <>
+  inline constexpr unsigned int n_lanes_of<Lanes> = n_lanes;
+
+  inline void
+  load(const double *from, double &number)
+  {
+    number = *from;
+  }
+
+  /// From n_lanes doubles aligned to lane_alignment.
+  inline void
+  load(const double *from, Lanes &lanes)
+  {
+    lanes = Lanes::load_aligned(from);
+  }
+
+  inline void
+  store(const double number, double *to)
+  {
+    *to = number;
+  }
+
+  inline void
+  store(const Lanes &lanes, double *to)
+  {
+    lanes.store_aligned(to);
+  }
+
   // The operations that laws and kinematics need beyond + - * /, for one number and for lanes
   // alike.
 

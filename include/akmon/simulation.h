@@ -96,7 +96,7 @@ namespace akmon
     {
       explicit Stages(StageTimer &timer);
       StageTimer::Stage predict, search, forces, time_step, free_increment, normal, friction,
-        correct, observe;
+        correct, observe, output;
     } stages;
   };
 } // namespace akmon

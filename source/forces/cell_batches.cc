@@ -7,17 +7,20 @@ namespace akmon
   CellBatches::CellBatches(const Discretization &discretization, const unsigned int body)
     : body(body)
   {
-    const auto &cells = discretization.cells;
-    const auto first  = std::lower_bound(cells.begin(),
+    const auto &cells    = discretization.cells;
+    const auto first     = std::lower_bound(cells.begin(),
                                         cells.end(),
                                         body,
                                         [](const auto &c, auto b) { return c.body < b; });
-    const auto last   = std::upper_bound(first, cells.end(), body, [](auto b, const auto &c) {
+    const auto last      = std::upper_bound(first, cells.end(), body, [](auto b, const auto &c) {
       return b < c.body;
     });
-    first_cell        = first - cells.begin();
-    n_cells           = last - first;
-    n_components      = Symmetric3<double>::n_components +
+    first_cell           = first - cells.begin();
+    n_cells              = last - first;
+    const bool one_point = discretization.get_bodies()[body].integration ==
+                           CellIntegration::one_point;
+    n_points     = one_point ? 1 : n_gauss_points;
+    n_components = Symmetric3<double>::n_components +
                    std::visit([](const auto
                                    &law) { return std::decay_t<decltype(law)>::n_internals; },
                               discretization.material_of(body).law);
@@ -26,6 +29,7 @@ namespace akmon
     node_offsets.resize(std::size_t(n_batches) * 8 * n_lanes);
     owned.resize(std::size_t(n_batches) * n_lanes, 0.);
     state.resize(n_batches * batch_stride(), 0.);
+    hourglass.resize(one_point ? std::size_t(n_batches) * 12 * n_lanes : 0, 0.);
     frequencies.resize(std::size_t(n_batches) * 2 * n_lanes, 0.);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {

@@ -1,5 +1,8 @@
 #include <akmon/forces/internal_forces.h>
+#include <akmon/forces/one_point_cell.h>
 #include <akmon/time/critical_step.h>
+
+#include <algorithm>
 
 namespace akmon
 {
@@ -62,48 +65,77 @@ namespace akmon
 
 
   void
-  InternalForces::update(const NodalVector &x, const NodalVector &dx, NodalVector &force)
+  InternalForces::update(const NodalVector &x,
+                         const NodalVector &dx,
+                         NodalVector &force,
+                         const double dt)
   {
     frequency_squared = 0.;
     for (auto &batches : body_batches)
       std::visit(
         [&](const auto &law) {
-          if (discretization.get_bodies()[batches.body].integration ==
-              CellIntegration::mean_dilatation)
-            update_body<true>(law, x, dx, batches, force);
-          else
-            update_body<false>(law, x, dx, batches, force);
+          switch (discretization.get_bodies()[batches.body].integration)
+            {
+              case CellIntegration::full:
+                update_body<CellIntegration::full>(law, x, dx, dt, batches, force);
+                break;
+              case CellIntegration::mean_dilatation:
+                update_body<CellIntegration::mean_dilatation>(law, x, dx, dt, batches, force);
+                break;
+              case CellIntegration::one_point:
+                update_body<CellIntegration::one_point>(law, x, dx, dt, batches, force);
+                break;
+            }
         },
         discretization.material_of(batches.body).law);
   }
 
 
-  template <bool mean_dilatation, typename Law>
+  template <CellIntegration integration, typename Law>
   void
   InternalForces::update_body(const Law &law,
                               const NodalVector &x,
                               const NodalVector &dx,
+                              const double dt,
                               CellBatches &batches,
                               NodalVector &force)
   {
-    CellPassSums sums;
+    const Body &body         = discretization.get_bodies()[batches.body];
+    const Material &material = discretization.material_of(batches.body);
+    const HourglassConstants constants(body.hourglass_control,
+                                       body.hourglass_coefficient,
+                                       material.elasticity(),
+                                       material.density,
+                                       dt);
+    CellPassSums<Lanes> sums;
     Lanes largest(0.);
     to_calibrate.clear();
     for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
       {
+        const unsigned int next = std::min(batch + 1, batches.n_batches() - 1);
+        for (const NodalVector *const vector : {&x, &dx, static_cast<const NodalVector *>(&force)})
+          prefetch_nodes(vector->begin(), batches.nodes(next));
+
         Lanes positions[8][3], increments[8][3], forces[8][3];
         gather(x.begin(), batches.nodes(batch), positions);
         gather(dx.begin(), batches.nodes(batch), increments);
 
-        const CellGeometry<Lanes> cell(positions, increments);
-        const Lanes owned          = Lanes::load_aligned(&batches.owned[batch * n_lanes]);
-        const Lanes strain_squared = update_stress_and_force<mean_dilatation>(law,
-                                                                              cell,
-                                                                              owned,
-                                                                              batches.state_at(
-                                                                                batch),
-                                                                              sums,
-                                                                              forces);
+        const Lanes owned   = Lanes::load_aligned(&batches.owned[std::size_t(batch) * n_lanes]);
+        double *const state = batches.state_at(batch);
+        CellStep<Lanes> cell;
+        if constexpr (integration == CellIntegration::one_point)
+          cell = update_one_point_cell(law,
+                                       constants,
+                                       positions,
+                                       increments,
+                                       owned,
+                                       state,
+                                       &batches.hourglass[std::size_t(batch) * 12 * n_lanes],
+                                       sums,
+                                       forces);
+        else
+          cell = update_stress_and_force<integration == CellIntegration::mean_dilatation>(
+            law, positions, increments, owned, state, batches.state_at(next), sums, forces);
         scatter_subtract(forces, batches.nodes(batch), batches.n_used_lanes[batch], force.begin());
 
         // A comparison with NaN is false: this finds inverted and non-finite cells.
@@ -116,12 +148,13 @@ namespace akmon
                 break;
               }
 
-        const auto recalibrate = bound_frequency(strain_squared, batches, batch, largest);
+        const auto recalibrate = bound_frequency(cell.strain_squared, batches, batch, largest);
         if (xsimd::any(recalibrate))
           to_calibrate.emplace_back(batch, recalibrate);
       }
     work += xsimd::hadd(sums.internal_work);
     dissipated += xsimd::hadd(sums.plastic_work);
+    hourglass += xsimd::hadd(sums.hourglass_work);
     if (!cell_fault.occurred())
       for (const auto &[batch, wanted] : to_calibrate)
         {

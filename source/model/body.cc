@@ -16,9 +16,18 @@ namespace akmon
     prm
       .declare_entry("Integration",
                      "mean dilatation",
-                     dealii::Patterns::Selection("mean dilatation|full"),
+                     dealii::Patterns::Selection("mean dilatation|full|one point"),
                      "Integration of the stress power: 2 x 2 x 2 Gauss points, with the dilatation "
-                     "averaged over the cell (does not lock) or not");
+                     "averaged over the cell (does not lock) or not; or one point with hourglass "
+                     "control (fastest)");
+    prm.declare_entry("Hourglass control",
+                      "stiffness",
+                      dealii::Patterns::Selection("stiffness|viscous"),
+                      "Form of the Flanagan-Belytschko hourglass control of one-point cells");
+    prm.declare_entry("Hourglass coefficient",
+                      "0.02",
+                      dealii::Patterns::Double(0., 0.15),
+                      "Coefficient kappa of the hourglass control (dimensionless)");
     prm.declare_entry("Refinement",
                       "0",
                       dealii::Patterns::Integer(0, 10),
@@ -47,12 +56,16 @@ namespace akmon
     material = prm.get("Material");
     if (material.empty())
       throw InputError(section, "Material", "(none)", "allowed are the names in Materials/Names");
-    integration = prm.get("Integration") == "full" ? CellIntegration::full :
-                                                     CellIntegration::mean_dilatation;
-    refinement  = prm.get_integer("Refinement");
-    position    = get_vector(prm, section, "Position");
-    velocity    = get_vector(prm, section, "Velocity");
-    spin        = get_vector(prm, section, "Spin");
+    integration           = prm.get("Integration") == "full"      ? CellIntegration::full :
+                            prm.get("Integration") == "one point" ? CellIntegration::one_point :
+                                                                    CellIntegration::mean_dilatation;
+    hourglass_control     = prm.get("Hourglass control") == "viscous" ? HourglassControl::viscous :
+                                                                        HourglassControl::stiffness;
+    hourglass_coefficient = prm.get_double("Hourglass coefficient");
+    refinement            = prm.get_integer("Refinement");
+    position              = get_vector(prm, section, "Position");
+    velocity              = get_vector(prm, section, "Velocity");
+    spin                  = get_vector(prm, section, "Spin");
 
     const auto axis = get_vector(prm, section, "Rotation axis");
     if (axis.norm() == 0.)

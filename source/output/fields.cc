@@ -55,13 +55,13 @@ namespace akmon
   {
     CellAverage average{{{0., 0., 0., 0., 0., 0.}}, 0.};
     const double *const state = batches.state_at(cell_of_body / n_lanes) + cell_of_body % n_lanes;
-    for (unsigned int q = 0; q < CellBatches::n_points; ++q)
+    for (unsigned int q = 0; q < batches.n_points; ++q)
       {
         const double *const point = state + std::size_t(q) * batches.n_components * n_lanes;
         for (unsigned int c = 0; c < 6; ++c)
-          average.stress[c] += point[c * n_lanes] / CellBatches::n_points;
+          average.stress[c] += point[c * n_lanes] / batches.n_points;
         if (batches.n_components > 6)
-          average.plastic_strain += point[6 * n_lanes] / CellBatches::n_points;
+          average.plastic_strain += point[6 * n_lanes] / batches.n_points;
       }
     return average;
   }

@@ -9,6 +9,14 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    // An energy that grows without bound doubles within a few steps; checking more often stops no
+    // earlier.
+    constexpr unsigned int levels_between_energies = 16;
+  } // namespace
+
+
   Monitor::Monitor(const Case &parameters, const Watched &watched)
     : parameters(parameters)
     , watched(watched)
@@ -31,6 +39,7 @@ namespace akmon
                          "damping_dissipation",
                          "friction_dissipation",
                          "impact_dissipation",
+                         "hourglass_energy",
                          "external_work",
                          "energy_error",
                          "momentum_x",
@@ -60,17 +69,23 @@ namespace akmon
     penetration          = std::max(penetration, report.max_penetration);
     penetration_relative = std::max(penetration_relative, report.max_penetration_relative);
 
-    const bool fields_due  = field_tick.due(watched.state.time, watched.state.step);
-    const bool history_due = history_tick.due(watched.state.time, watched.state.step);
-    if (history_due || last || watched.state.step == 0)
-      {
-        sum_energies();
-        write_row();
-      }
+    const auto step = watched.state.step;
+    row_due         = history_tick.due(watched.state.time, step) || last || step == 0;
+    if (row_due || step % levels_between_energies == 0)
+      sum_energies();
+    row_due = row_due || !energy_fault().empty();
+  }
+
+
+  void
+  Monitor::write(const bool last)
+  {
+    if (row_due)
+      write_row();
+    const bool fields_due = field_tick.due(watched.state.time, watched.state.step);
     if (fields_due || last || watched.state.step == 0)
       write_fields();
-    if (history_due || last)
-      check_energy();
+    check_energy();
   }
 
 
@@ -108,14 +123,15 @@ namespace akmon
   void
   Monitor::sum_energies()
   {
-    const std::array<double, 7> local = {{watched.integrator.kinetic_energy(),
+    const std::array<double, 8> local = {{watched.integrator.kinetic_energy(),
                                           watched.internal_forces.internal_work(),
                                           watched.internal_forces.plastic_work(),
                                           damping.value(),
                                           friction.value(),
                                           impact.value(),
+                                          watched.internal_forces.hourglass_work(),
                                           external.value()}};
-    std::array<double, 7> all;
+    std::array<double, 8> all;
     Utilities::MPI::sum(ArrayView<const double>(local.data(), local.size()),
                         watched.discretization.communicator(),
                         ArrayView<double>(all.data(), all.size()));
@@ -125,7 +141,8 @@ namespace akmon
     balance.damping_dissipation  = all[3];
     balance.friction_dissipation = all[4];
     balance.impact_dissipation   = all[5];
-    balance.external_work        = all[6];
+    balance.hourglass            = all[6];
+    balance.external_work        = all[7];
     if (watched.state.step == 0)
       initial_energy = balance.sum();
     largest_energy = std::max({largest_energy, balance.kinetic, std::abs(balance.external_work)});
@@ -140,16 +157,27 @@ namespace akmon
   std::vector<double>
   Monitor::momenta() const
   {
-    Tensor<1, 3> linear, angular;
+    // v_n = (dx_{n-1}/dt + dx_n/dt')/2 in plain arrays: this runs over all nodes for every row.
+    const double before = 0.5 / watched.state.dt, after = 0.5 / watched.state.dt_next;
+    const double *const x = watched.state.x.begin(), *const dx = watched.state.dx.begin(),
+                        *const dx_next = watched.state.dx_next.begin();
+    std::vector<double> sums(6, 0.);
     for (unsigned int node = 0; node < watched.discretization.n_owned_nodes; ++node)
       {
-        const auto momentum = watched.discretization.mass[node] * watched.integrator.velocity(node);
-        linear += momentum;
-        angular += cross_product_3d(at_node(watched.state.x, node), momentum);
+        const double m = watched.discretization.mass[node];
+        double p[3];
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            p[d] = m * (before * dx[3 * node + d] + after * dx_next[3 * node + d]);
+            sums[d] += p[d];
+          }
+        const double *const X = x + 3 * node;
+        sums[3] += X[1] * p[2] - X[2] * p[1];
+        sums[4] += X[2] * p[0] - X[0] * p[2];
+        sums[5] += X[0] * p[1] - X[1] * p[0];
       }
-    linear  = Utilities::MPI::sum(linear, watched.discretization.communicator());
-    angular = Utilities::MPI::sum(angular, watched.discretization.communicator());
-    return {linear[0], linear[1], linear[2], angular[0], angular[1], angular[2]};
+    Utilities::MPI::sum(sums, watched.discretization.communicator(), sums);
+    return sums;
   }
 
 
@@ -167,6 +195,7 @@ namespace akmon
                                balance.damping_dissipation,
                                balance.friction_dissipation,
                                balance.impact_dissipation,
+                               balance.hourglass,
                                balance.external_work,
                                error};
     const auto append       = [&](const std::vector<double> &values) {
@@ -191,14 +220,30 @@ namespace akmon
   }
 
 
+  // What is wrong with the energies, empty if nothing; written so that not a number is beyond any
+  // bound.
+  std::string
+  Monitor::energy_fault() const
+  {
+    const auto &output = parameters.output;
+    if (!(std::abs(worst.energy_error) <= output.energy_error_bound))
+      return "energy error " + shortest_text(worst.energy_error) + " is beyond the bound " +
+             shortest_text(output.energy_error_bound) + " ([Output] Energy error bound)";
+    if (!(std::abs(balance.hourglass) <= output.hourglass_energy_bound * largest_energy))
+      return "hourglass energy " + shortest_text(balance.hourglass) + " is beyond " +
+             shortest_text(output.hourglass_energy_bound) +
+             " of the largest energy so far ([Output] Hourglass energy bound); refine the mesh or "
+             "integrate fully";
+    return "";
+  }
+
+
   void
   Monitor::check_energy() const
   {
-    if (!(std::abs(worst.energy_error) <= parameters.output.energy_error_bound))
+    const std::string fault = energy_fault();
+    if (!fault.empty())
       throw RunError("step " + std::to_string(watched.state.step) + ", time " +
-                     shortest_text(watched.state.time) + ": energy error " +
-                     shortest_text(worst.energy_error) + " is beyond the bound " +
-                     shortest_text(parameters.output.energy_error_bound) +
-                     " ([Output] Energy error bound)");
+                     shortest_text(watched.state.time) + ": " + fault);
   }
 } // namespace akmon

@@ -33,19 +33,26 @@ namespace akmon
       "0.05",
       Double(0.),
       "The run stops when the energy error, relative to the largest energy so far, is "
-      "beyond this at a history row (dimensionless)");
+      "beyond this; looked at with every history row and at least every 16 steps (dimensionless)");
+    prm.declare_entry(
+      "Hourglass energy bound",
+      "0.1",
+      Double(0.),
+      "The run stops when the work against the hourglass control of one-point cells, "
+      "relative to the largest energy so far, is beyond this (dimensionless)");
   }
 
 
   void
   OutputParameters::parse(dealii::ParameterHandler &prm)
   {
-    fields.interval    = prm.get_double("Fields interval");
-    fields.steps       = prm.get_integer("Fields steps");
-    history.interval   = prm.get_double("History interval");
-    history.steps      = prm.get_integer("History steps");
-    deformed           = prm.get("Configuration") == "deformed";
-    energy_error_bound = prm.get_double("Energy error bound");
+    fields.interval        = prm.get_double("Fields interval");
+    fields.steps           = prm.get_integer("Fields steps");
+    history.interval       = prm.get_double("History interval");
+    history.steps          = prm.get_integer("History steps");
+    deformed               = prm.get("Configuration") == "deformed";
+    energy_error_bound     = prm.get_double("Energy error bound");
+    hourglass_energy_bound = prm.get_double("Hourglass energy bound");
   }
 
 

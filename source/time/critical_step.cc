@@ -4,7 +4,7 @@ namespace akmon
 {
   namespace
   {
-    constexpr unsigned int n_points = CellBatches::n_points;
+    constexpr unsigned int n_points = CellBatches::n_gauss_points;
 
     // f = K u for linear elasticity on the configuration x, with the cell integration of the time
     // loop.
@@ -33,7 +33,7 @@ namespace akmon
       const N mean = dilatation / volume;
       for (unsigned int q = 0; q < n_points; ++q)
         {
-          if (integration == CellIntegration::mean_dilatation)
+          if (integration != CellIntegration::full)
             strain[q] = add_to_diagonal(strain[q], N((mean - trace(strain[q])) * (1. / 3.)));
           weights.add(q, elasticity.stress(strain[q]) * cofactor(positions.at(q)));
         }

@@ -38,7 +38,7 @@ namespace akmon::test
     double largest = 0.;
     for (const auto &batches : forces.batches())
       for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
-        for (unsigned int q = 0; q < CellBatches::n_points; ++q)
+        for (unsigned int q = 0; q < batches.n_points; ++q)
           for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
             largest = std::max(largest,
                                batches.state_at(

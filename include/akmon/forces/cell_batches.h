@@ -22,7 +22,7 @@ namespace akmon
    */
   struct CellBatches
   {
-    static constexpr unsigned int n_points = 8; ///< Gauss points per cell
+    static constexpr unsigned int n_gauss_points = 8; ///< of a fully integrated cell
 
     /// Node numbers [node][lane] of a batch, times three: offsets into nodal vectors.
     using NodeOffsets = std::uint32_t[8][n_lanes];
@@ -60,6 +60,7 @@ namespace akmon
     }
 
     unsigned int body;
+    unsigned int n_points;     ///< quadrature points of a cell, 8 or 1
     unsigned int n_components; ///< 6 + number of internal variables
     std::size_t first_cell;    ///< in Discretization::cells
     std::size_t n_cells;
@@ -67,6 +68,7 @@ namespace akmon
     std::vector<std::uint8_t> n_used_lanes; ///< per batch
     LaneArray owned;                        ///< [batch][lane], 1 for cells this rank owns, else 0
     LaneArray state;
+    LaneArray hourglass; ///< forces Q [batch][pattern][component][lane] of one-point cells; force
     LaneArray
       frequencies; ///< [batch][2][lane]: omega^2 as last computed, bound of its growth since
   };

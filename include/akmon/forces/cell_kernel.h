@@ -8,10 +8,12 @@
 namespace akmon
 {
   /// Sums over the cells of a rank of what one pass did, one entry per SIMD lane.
+  template <typename N>
   struct CellPassSums
   {
-    Lanes internal_work = Lanes(0.); ///< stress power of the step, energy
-    Lanes plastic_work  = Lanes(0.); ///< its plastic part, energy
+    N internal_work  = N(0.); ///< stress power of the step, energy
+    N plastic_work   = N(0.); ///< its plastic part, energy
+    N hourglass_work = N(0.); ///< of the hourglass control of one-point cells, energy
   };
 
 
@@ -31,6 +33,17 @@ namespace akmon
     for (unsigned int v = 0; v < 8; ++v)
       for (unsigned int c = 0; c < 3; ++c)
         values[v][c] = Lanes::load_aligned(buffer[v][c]);
+  }
+
+
+  /// Ask for what the next batch needs of a nodal vector: its nodes lie all over the memory, and
+  /// the processor's own prefetching does not know of them.
+  inline void
+  prefetch_nodes(const double *vector, const CellBatches::NodeOffsets &nodes)
+  {
+    for (unsigned int v = 0; v < 8; ++v)
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        __builtin_prefetch(vector + nodes[v][lane]);
   }
 
 
@@ -58,21 +71,22 @@ namespace akmon
 
 
   /**
-   * Cube root of a ratio near one by Halley's iteration y <- y (y^3 + 2r)/(2 y^3 + r), which
-   * triples the correct digits each time: exact to round-off for 1/4 < r < 4, far beyond what one
-   * stable step does.
+   * Cube root of a ratio near one, by the iteration z <- z (1 + h/3 + 2 h^2/9), h = 1 - r z^3, for
+   * the inverse cube root, which triples the correct digits each time and needs no division. Exact
+   * to round-off for 1/2 < r < 2, to seven digits for 1/5 < r < 5; one stable step changes the
+   * ratio by a few hundredths.
    */
   template <typename N>
-  N
+  [[gnu::always_inline]] inline N
   cube_root_near_one(const N &r)
   {
-    N y = 1. + (r - 1.) * (1. / 3.);
-    for (unsigned int iteration = 0; iteration < 3; ++iteration)
+    N z = (2. + r) / (1. + 2. * r);
+    for (unsigned int iteration = 0; iteration < 2; ++iteration)
       {
-        const N cube = y * y * y;
-        y            = y * (cube + 2. * r) / (2. * cube + r);
+        const N h = 1. - r * (z * z * z);
+        z += z * h * (1. / 3. + h * (2. / 9.));
       }
-    return y;
+    return r * (z * z);
   }
 
 
@@ -83,129 +97,212 @@ namespace akmon
   template <typename N>
   struct CellGeometry
   {
+    static constexpr unsigned int n_points = CellBatches::n_gauss_points;
+
     TrilinearGradients<N> end;       ///< of x_{n+1}
     TrilinearGradients<N> increment; ///< of dx_n
 
-    static constexpr unsigned int n_points = CellBatches::n_points;
-
     N volume_begin, volume_end; ///< of the cell in configurations n and n+1
-    N smallest_jacobian;        ///< least det(d x_{n+1} / d xi) over the Gauss points
 
     CellGeometry(const N (&x)[8][3], const N (&dx)[8][3])
       : end(TrilinearGradients<N>::evaluate(x))
       , increment(TrilinearGradients<N>::evaluate(dx))
-      , volume_begin(0.)
-      , volume_end(0.)
+      , volume_end(hexahedron_volume(x))
     {
-      for (unsigned int q = 0; q < n_points; ++q)
-        {
-          const Matrix3<N> J1 = end.at(q), J0 = begin_at(q);
-          const N j1 = determinant(J1, cofactor(J1));
-          volume_end += j1;
-          volume_begin += determinant(J0, cofactor(J0));
-          smallest_jacobian = q == 0 ? j1 : select(j1 < smallest_jacobian, j1, smallest_jacobian);
-        }
-    }
-
-    /// d x_n / d xi at Gauss point q.
-    Matrix3<N>
-    begin_at(const unsigned int q) const
-    {
-      const Matrix3<N> J1 = end.at(q), dJ = increment.at(q);
-      Matrix3<N> J0;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
-          J0(i, j) = J1(i, j) - dJ(i, j);
-      return J0;
+      N x_begin[8][3];
+      for (unsigned int v = 0; v < 8; ++v)
+        for (unsigned int c = 0; c < 3; ++c)
+          x_begin[v][c] = x[v][c] - dx[v][c];
+      volume_begin = hexahedron_volume(x_begin);
     }
   };
 
 
   /**
-   * One step of a batch: stress update at every Gauss point, then nodal forces
+   * What the step does to the material at the Gauss points: L = d(dx)/d x_mid and the volume ratio,
+   * with x_mid the mean of both configurations. With J_0, J_1 = d x/d xi of configurations n and
+   * n+1,
    *
-   *     f_a = int_{Omega_{n+1}} sigma_{n+1} grad N_a dOmega .
+   *     L = (J_1 - J_0) ((J_1 + J_0)/2)^{-1}.
    *
-   * With mean dilatation the increment is F_bar = (J_mean / J)^{1/3} F, J_mean = V_{n+1}/V_n, and
-   * the pressure works on the cell's mean volume change: f_a = sum_q w (dev sigma + p_mean I) cof(d
-   * x/d xi) dN_a/d xi, p_mean V = sum_q w det(d x/d xi) p_q (Nagtegaal, Parks and Rice 1974; Hughes
-   * 1980).
-   *
+   * With mean dilatation the increment is F_bar = s F, s = (J_mean/J)^{1/3}, J_mean = V_{n+1}/V_n
+   * (Nagtegaal, Parks and Rice 1974; Hughes 1980): the same with s J_1 for J_1.
+   */
+  template <typename N>
+  struct PointKinematics
+  {
+    static constexpr unsigned int n_points = CellBatches::n_gauss_points;
+
+    N jacobian_begin[n_points]; ///< det J_0
+    N jacobian_end[n_points];   ///< det J_1
+    N J[n_points];              ///< volume ratio of the increment
+    Matrix3<N> L[n_points];
+    N smallest_jacobian; ///< least det J_1, or the cell's volume if that is less
+
+    // In two loops and unrolled, so that the long chains of operations of different points overlap.
+    template <bool mean_dilatation>
+    [[gnu::always_inline]] inline void
+    compute(const CellGeometry<N> &cell)
+    {
+      const N mean_J    = cell.volume_end / cell.volume_begin;
+      smallest_jacobian = cell.volume_end;
+      N stretch[n_points]; // s - 1
+#pragma GCC unroll 8
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const Matrix3<N> J_1 = cell.end.at(q);
+          jacobian_end[q]      = determinant(J_1);
+          jacobian_begin[q]    = determinant(add(J_1, -1., cell.increment.at(q)));
+          smallest_jacobian    = select(jacobian_end[q] < smallest_jacobian,
+                                     jacobian_end[q],
+                                     smallest_jacobian);
+          if constexpr (mean_dilatation)
+            stretch[q] = cube_root_near_one(N(mean_J * jacobian_begin[q] / jacobian_end[q])) - 1.;
+          J[q] = mean_dilatation ? mean_J : N(jacobian_end[q] / jacobian_begin[q]);
+        }
+#pragma GCC unroll 8
+      for (unsigned int q = 0; q < n_points; ++q)
+        {
+          const Matrix3<N> J_1 = cell.end.at(q), dJ = cell.increment.at(q);
+          Matrix3<N> difference = dJ, middle = add(J_1, -0.5, dJ);
+          if constexpr (mean_dilatation)
+            {
+              difference = add(difference, stretch[q], J_1);
+              middle     = add(middle, N(0.5 * stretch[q]), J_1);
+            }
+          const Matrix3<N> cofactors = cofactor(middle);
+          L[q] = times_inverse(difference, cofactors, N(1. / determinant(middle, cofactors)));
+        }
+    }
+  };
+
+
+  /**
+   * Stress update at every Gauss point.
    * @param state  [q][component][lane] of this batch, from n to n+1
+   * @param ahead  state of the next batch, fetched meanwhile
    * @param owned  per lane, 1 where the cell counts in the sums
+   * @param mean_pressure  sum_q w det(J_1) p_q / V of the new stresses
    * @return       largest E_mid : E_mid over the Gauss points
    */
-  template <bool mean_dilatation, typename Law>
-  Lanes
-  update_stress_and_force(const Law &law,
-                          const CellGeometry<Lanes> &cell,
-                          const Lanes &owned,
-                          double *state,
-                          CellPassSums &sums,
-                          Lanes (&force)[8][3])
+  template <typename Law, typename N>
+  [[gnu::always_inline]] inline N
+  update_stresses(const Law &law,
+                  const CellGeometry<N> &cell,
+                  const PointKinematics<N> &points,
+                  const N &owned,
+                  double *state,
+                  const double *ahead,
+                  CellPassSums<N> &sums,
+                  N &mean_pressure)
   {
-    constexpr unsigned int n_components = Symmetric3<Lanes>::n_components + Law::n_internals;
-    constexpr unsigned int n_points     = CellBatches::n_points;
+    constexpr unsigned int n_components = Symmetric3<N>::n_components + Law::n_internals;
 
-    const Lanes mean_J = cell.volume_end / cell.volume_begin;
-    Lanes pressure_volume(0.), internal_work(0.), plastic_work(0.), strain_squared(0.);
-    for (unsigned int q = 0; q < n_points; ++q)
+    N pressure_volume(0.), internal_work(0.), plastic_work(0.), strain_squared(0.);
+#pragma GCC unroll 8
+    for (unsigned int q = 0; q < CellBatches::n_gauss_points; ++q)
       {
-        double *const point = state + q * n_components * n_lanes;
+        double *const point = state + q * n_components * n_lanes_of<N>;
+        for (unsigned int c = 0; c < n_components; ++c)
+          __builtin_prefetch(ahead + (q * n_components + c) * n_lanes_of<N>, 1);
 
-        const Matrix3<Lanes> J0 = cell.begin_at(q), J1 = cell.end.at(q);
-        const Matrix3<Lanes> cofactors_J0 = cofactor(J0);
-        const Lanes j0                    = determinant(J0, cofactors_J0);
-        const Lanes j1                    = determinant(J1, cofactor(J1));
-
-        Matrix3<Lanes> H = times_inverse(cell.increment.at(q), cofactors_J0, Lanes(1. / j0));
-        Lanes J          = j1 / j0;
-        if constexpr (mean_dilatation)
-          {
-            const Lanes scale = cube_root_near_one(Lanes(mean_J / J));
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int j = 0; j < 3; ++j)
-                H(i, j) = i == j ? scale * H(i, j) + (scale - 1.) : scale * H(i, j);
-            J = mean_J;
-          }
-
-        Symmetric3<Lanes> stress, stress_before;
+        Symmetric3<N> stress;
         for (unsigned int c = 0; c < 6; ++c)
-          stress_before[c] = stress[c] = Lanes::load_aligned(point + c * n_lanes);
-        Lanes internals[Law::n_internals + 1]; // one more than used: no array has length zero
+          load(point + c * n_lanes_of<N>, stress[c]);
+        N internals[Law::n_internals + 1]; // one more than used: no array has length zero
         for (unsigned int i = 0; i < Law::n_internals; ++i)
-          internals[i] = Lanes::load_aligned(point + (6 + i) * n_lanes);
+          load(point + (6 + i) * n_lanes_of<N>, internals[i]);
 
-        const auto increment = arc_end_update(law, H, J, stress, internals);
+        const Symmetric3<N> strain = symmetric_part(points.L[q]);
+        internal_work += points.jacobian_begin[q] * contract(stress, strain);
+        const N plastic = arc_end_update_from_mid(law, points.L[q], points.J[q], stress, internals)
+                            .plastic_work;
+        internal_work += points.jacobian_end[q] * contract(stress, strain);
+        plastic_work += points.jacobian_end[q] * plastic;
+        pressure_volume += points.jacobian_end[q] * trace(stress);
+        strain_squared = maximum(strain_squared, contract(strain, strain));
 
         for (unsigned int c = 0; c < 6; ++c)
-          stress[c].store_aligned(point + c * n_lanes);
+          store(stress[c], point + c * n_lanes_of<N>);
         for (unsigned int i = 0; i < Law::n_internals; ++i)
-          internals[i].store_aligned(point + (6 + i) * n_lanes);
-
-        pressure_volume += j1 * trace(stress) * (1. / 3.);
-        internal_work += 0.5 * (j0 * contract(stress_before, increment.strain) +
-                                j1 * contract(stress, increment.strain));
-        plastic_work += j1 * increment.plastic_work;
-        strain_squared = maximum(strain_squared, contract(increment.strain, increment.strain));
+          store(internals[i], point + (6 + i) * n_lanes_of<N>);
       }
-    sums.internal_work += owned * internal_work;
+    sums.internal_work += owned * (0.5 * internal_work);
     sums.plastic_work += owned * plastic_work;
+    mean_pressure = pressure_volume / (3. * cell.volume_end);
+    return strain_squared;
+  }
 
-    const Lanes mean_pressure = pressure_volume / cell.volume_end;
-    TrilinearGradients<Lanes> weights;
+
+  /**
+   * Nodal forces f_a = int_{Omega_{n+1}} sigma_{n+1} grad N_a dOmega. With mean dilatation the
+   * pressure works on the cell's mean volume change: f_a = sum_q w (dev sigma + p_mean I) cof(d x/d
+   * xi) dN_a/d xi.
+   */
+  template <bool mean_dilatation, unsigned int n_components, typename N>
+  [[gnu::always_inline]] inline void
+  internal_force(const CellGeometry<N> &cell,
+                 const double *state,
+                 const N &mean_pressure,
+                 N (&force)[8][3])
+  {
+    TrilinearGradients<N> weights;
     weights.clear();
-    for (unsigned int q = 0; q < n_points; ++q)
+#pragma GCC unroll 8
+    for (unsigned int q = 0; q < CellBatches::n_gauss_points; ++q)
       {
-        const double *const point = state + q * n_components * n_lanes;
-        Symmetric3<Lanes> stress;
+        const double *const point = state + q * n_components * n_lanes_of<N>;
+        Symmetric3<N> stress;
         for (unsigned int c = 0; c < 6; ++c)
-          stress[c] = Lanes::load_aligned(point + c * n_lanes);
+          load(point + c * n_lanes_of<N>, stress[c]);
         if constexpr (mean_dilatation)
-          stress = add_to_diagonal(stress, Lanes(mean_pressure - trace(stress) * (1. / 3.)));
+          stress = add_to_diagonal(stress, N(mean_pressure - trace(stress) * (1. / 3.)));
         weights.add(q, stress * cofactor(cell.end.at(q)));
       }
     weights.integrate(force);
-    return strain_squared;
+  }
+
+
+  /// What a step found out about the cells of a batch.
+  template <typename N>
+  struct CellStep
+  {
+    N strain_squared;    ///< largest E_mid : E_mid over the Gauss points
+    N smallest_jacobian; ///< not positive, or not a number, where the cell cannot be computed
+  };
+
+
+  /**
+   * One step of a batch of fully integrated cells: stress update at every Gauss point, then nodal
+   * forces.
+   *
+   * @param x, dx  x_{n+1} and dx_n [node][component], length
+   * @param owned  per lane, 1 where the cell counts in the sums
+   * @param state  [q][component][lane] of this batch, from n to n+1
+   * @param ahead  state of the next batch, fetched meanwhile; any batch's
+   * @param force  internal forces of the cells' nodes
+   */
+  template <bool mean_dilatation, typename Law, typename N>
+  CellStep<N>
+  update_stress_and_force(const Law &law,
+                          const N (&x)[8][3],
+                          const N (&dx)[8][3],
+                          const N &owned,
+                          double *state,
+                          const double *ahead,
+                          CellPassSums<N> &sums,
+                          N (&force)[8][3])
+  {
+    const CellGeometry<N> cell(x, dx);
+    PointKinematics<N> points;
+    points.template compute<mean_dilatation>(cell);
+    N mean_pressure;
+    const N
+      strain_squared = update_stresses(law, cell, points, owned, state, ahead, sums, mean_pressure);
+    internal_force<mean_dilatation, Symmetric3<N>::n_components + Law::n_internals>(cell,
+                                                                                    state,
+                                                                                    mean_pressure,
+                                                                                    force);
+    return {strain_squared, points.smallest_jacobian};
   }
 } // namespace akmon

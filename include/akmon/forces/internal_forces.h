@@ -38,9 +38,13 @@ namespace akmon
      * @param x      x_{n+1}, ghosted
      * @param dx     dx_n = x_{n+1} - x_n, ghosted
      * @param force  complete at owned nodes; ghost entries are partial and must not be read
+     * @param dt     of the step, time; only viscous hourglass control looks at it
      */
     void
-    update(const NodalVector &x, const NodalVector &dx, NodalVector &force);
+    update(const NodalVector &x,
+           const NodalVector &dx,
+           NodalVector &force,
+           const double dt = std::numeric_limits<double>::infinity());
 
     /// Largest omega^2 of this rank's cells in the configuration of the last update (or the initial
     /// one).
@@ -87,6 +91,14 @@ namespace akmon
       return dissipated;
     }
 
+    /// Work done so far against the hourglass control of the one-point cells this rank owns;
+    /// energy.
+    double
+    hourglass_work() const
+    {
+      return hourglass;
+    }
+
     const std::vector<CellBatches> &
     batches() const
     {
@@ -110,11 +122,12 @@ namespace akmon
                  unsigned int batch,
                  unsigned int lane);
 
-    template <bool mean_dilatation, typename Law>
+    template <CellIntegration integration, typename Law>
     void
     update_body(const Law &law,
                 const NodalVector &x,
                 const NodalVector &dx,
+                const double dt,
                 CellBatches &batches,
                 NodalVector &force);
 
@@ -127,6 +140,7 @@ namespace akmon
     std::size_t initially_limiting_cell = 0;
     double work                         = 0.;
     double dissipated                   = 0.;
+    double hourglass                    = 0.;
     CellFault cell_fault;
   };
 } // namespace akmon

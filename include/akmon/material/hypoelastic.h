@@ -29,7 +29,7 @@ namespace akmon
 
     /// The trial stress is the stress; dissipates nothing.
     template <typename N>
-    N
+    [[gnu::always_inline]] inline N
     return_to_yield_surface(Symmetric3<N> & /*stress*/, N * /*internals*/) const
     {
       return N(0.);

@@ -53,24 +53,21 @@ namespace akmon
      * current volume, with the yield stress at the middle of the step.
      */
     template <typename N>
-    N
+    [[gnu::always_inline]] inline N
     return_to_yield_surface(Symmetric3<N> &stress, N *internals) const
     {
       // Guards the division where there is no stress at all; no physical equivalent stress is
       // smaller.
       constexpr double tiny = 1e-150;
 
-      const N mean     = trace(stress) * (1. / 3.);
-      const N q        = square_root(equivalent_stress_squared(stress));
-      const N y        = yield_stress + hardening_modulus * internals[0];
-      const N d_eps    = maximum(q - y, N(0.)) * (1. / (3. * elasticity.mu + hardening_modulus));
-      const N deviator = 1. - 3. * elasticity.mu * d_eps / maximum(q, N(tiny));
+      const Symmetric3<N> deviator = add_to_diagonal(stress, N(trace(stress) * (-1. / 3.)));
+      const N q                    = square_root(1.5 * contract(deviator, deviator));
+      const N y                    = yield_stress + hardening_modulus * internals[0];
+      const N d_eps = maximum(q - y, N(0.)) * (1. / (3. * elasticity.mu + hardening_modulus));
+      const N part  = 3. * elasticity.mu * d_eps / maximum(q, N(tiny));
 
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          stress[i]     = deviator * (stress[i] - mean) + mean;
-          stress[i + 3] = deviator * stress[i + 3];
-        }
+      for (unsigned int i = 0; i < 6; ++i)
+        stress[i] -= part * deviator[i];
       internals[0] += d_eps;
       return (y + 0.5 * hardening_modulus * d_eps) * d_eps;
     }

@@ -5,7 +5,8 @@ namespace akmon
   /**
    * 3 x 3 matrix of numbers of type N (double, or Lanes: one matrix per SIMD lane). deal.II's
    * Tensor admits no foreign SIMD types, hence these two small types for the cell kernel and the
-   * laws.
+   * laws. All functions are inlined by force: a call would pass every operand through memory, which
+   * costs the kernel a third of its speed.
    */
   template <typename N>
   struct Matrix3
@@ -49,7 +50,7 @@ namespace akmon
 
 
   template <typename N>
-  Matrix3<N>
+  [[gnu::always_inline]] inline Matrix3<N>
   operator*(const Matrix3<N> &a, const Matrix3<N> &b)
   {
     Matrix3<N> result;
@@ -60,9 +61,22 @@ namespace akmon
   }
 
 
+  /// a + factor * b, the factor a constant or a number of its own per lane
+  template <typename N, typename Factor>
+  [[gnu::always_inline]] inline Matrix3<N>
+  add(const Matrix3<N> &a, const Factor &factor, const Matrix3<N> &b)
+  {
+    Matrix3<N> result;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        result(i, j) = a(i, j) + factor * b(i, j);
+    return result;
+  }
+
+
   /// I + factor * a
   template <typename N>
-  Matrix3<N>
+  [[gnu::always_inline]] inline Matrix3<N>
   identity_plus(const double factor, const Matrix3<N> &a)
   {
     Matrix3<N> result;
@@ -75,7 +89,7 @@ namespace akmon
 
   /// Cofactor matrix: det(a) a^{-T}.
   template <typename N>
-  Matrix3<N>
+  [[gnu::always_inline]] inline Matrix3<N>
   cofactor(const Matrix3<N> &a)
   {
     Matrix3<N> result;
@@ -92,16 +106,26 @@ namespace akmon
 
   /// Determinant of a matrix whose cofactors are known.
   template <typename N>
-  N
+  [[gnu::always_inline]] inline N
   determinant(const Matrix3<N> &a, const Matrix3<N> &cofactors)
   {
     return a(0, 0) * cofactors(0, 0) + a(0, 1) * cofactors(0, 1) + a(0, 2) * cofactors(0, 2);
   }
 
 
+  template <typename N>
+  [[gnu::always_inline]] inline N
+  determinant(const Matrix3<N> &a)
+  {
+    return a(0, 0) * (a(1, 1) * a(2, 2) - a(1, 2) * a(2, 1)) +
+           a(0, 1) * (a(1, 2) * a(2, 0) - a(1, 0) * a(2, 2)) +
+           a(0, 2) * (a(1, 0) * a(2, 1) - a(1, 1) * a(2, 0));
+  }
+
+
   /// a b^{-1}, from the cofactors and the inverse determinant of b.
   template <typename N>
-  Matrix3<N>
+  [[gnu::always_inline]] inline Matrix3<N>
   times_inverse(const Matrix3<N> &a, const Matrix3<N> &cofactors_b, const N &inverse_determinant_b)
   {
     Matrix3<N> result;
@@ -114,9 +138,21 @@ namespace akmon
   }
 
 
+  template <typename N>
+  [[gnu::always_inline]] inline Matrix3<N>
+  transpose(const Matrix3<N> &a)
+  {
+    Matrix3<N> result;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        result(i, j) = a(j, i);
+    return result;
+  }
+
+
   /// a s, with a symmetric s.
   template <typename N>
-  Matrix3<N>
+  [[gnu::always_inline]] inline Matrix3<N>
   operator*(const Matrix3<N> &a, const Symmetric3<N> &s)
   {
     Matrix3<N> result;
@@ -132,7 +168,7 @@ namespace akmon
 
   /// s a, with a symmetric s.
   template <typename N>
-  Matrix3<N>
+  [[gnu::always_inline]] inline Matrix3<N>
   operator*(const Symmetric3<N> &s, const Matrix3<N> &a)
   {
     Matrix3<N> result;
@@ -148,7 +184,7 @@ namespace akmon
 
   /// factor * a s a^T
   template <typename N>
-  Symmetric3<N>
+  [[gnu::always_inline]] inline Symmetric3<N>
   push_forward(const Matrix3<N> &a, const Symmetric3<N> &s, const N &factor)
   {
     const Matrix3<N> t  = a * s;
@@ -166,7 +202,7 @@ namespace akmon
 
   /// (a + a^T)/2
   template <typename N>
-  Symmetric3<N>
+  [[gnu::always_inline]] inline Symmetric3<N>
   symmetric_part(const Matrix3<N> &a)
   {
     return {{a(0, 0),
@@ -179,7 +215,7 @@ namespace akmon
 
 
   template <typename N>
-  N
+  [[gnu::always_inline]] inline N
   trace(const Symmetric3<N> &s)
   {
     return s[0] + s[1] + s[2];
@@ -188,7 +224,7 @@ namespace akmon
 
   /// a : b
   template <typename N>
-  N
+  [[gnu::always_inline]] inline N
   contract(const Symmetric3<N> &a, const Symmetric3<N> &b)
   {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + 2. * (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
@@ -196,7 +232,7 @@ namespace akmon
 
 
   template <typename N>
-  Symmetric3<N>
+  [[gnu::always_inline]] inline Symmetric3<N>
   operator+(const Symmetric3<N> &a, const Symmetric3<N> &b)
   {
     Symmetric3<N> result;
@@ -208,7 +244,7 @@ namespace akmon
 
   /// s + p I
   template <typename N>
-  Symmetric3<N>
+  [[gnu::always_inline]] inline Symmetric3<N>
   add_to_diagonal(Symmetric3<N> s, const N &p)
   {
     for (unsigned int i = 0; i < 3; ++i)
@@ -219,7 +255,7 @@ namespace akmon
 
   /// Von Mises equivalent stress sqrt(3/2) |dev s|, squared.
   template <typename N>
-  N
+  [[gnu::always_inline]] inline N
   equivalent_stress_squared(const Symmetric3<N> &s)
   {
     const Symmetric3<N> deviator = add_to_diagonal(s, N(trace(s) * (-1. / 3.)));

@@ -13,7 +13,16 @@ namespace akmon
   enum class CellIntegration
   {
     full, ///< 2 x 2 x 2 Gauss points, every term; locks when plastic flow keeps the volume
-    mean_dilatation ///< 2 x 2 x 2 Gauss points, dilatation averaged over the cell (B-bar)
+    mean_dilatation, ///< 2 x 2 x 2 Gauss points, dilatation averaged over the cell (B-bar)
+    one_point        ///< the mean strain only, with hourglass control
+  };
+
+
+  /// What resists the hourglass patterns of one-point cells.
+  enum class HourglassControl
+  {
+    stiffness, ///< springs: for slow deformation and long runs
+    viscous    ///< dampers: for fast deformation
   };
 
 
@@ -28,7 +37,9 @@ namespace akmon
     dealii::Tensor<1, 3> velocity; ///< initial velocity, length/time
     dealii::Tensor<1, 3> spin;     ///< initial angular velocity about the centre of volume, 1/time
     std::string material;
-    CellIntegration integration = CellIntegration::mean_dilatation;
+    CellIntegration integration        = CellIntegration::mean_dilatation;
+    HourglassControl hourglass_control = HourglassControl::stiffness;
+    double hourglass_coefficient       = 0.02; ///< kappa, dimensionless
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -56,6 +56,7 @@ namespace akmon
     double friction_dissipation = 0.;
     double
       impact_dissipation = 0.; ///< kinetic energy of striking nodes that exact enforcement takes
+    double hourglass     = 0.; ///< work against hourglass control
     double external_work = 0.; ///< of loads and prescribed motions
 
     /// What must stay the same.
@@ -63,7 +64,7 @@ namespace akmon
     sum() const
     {
       return kinetic + strain + plastic_dissipation + damping_dissipation + friction_dissipation +
-             impact_dissipation - external_work;
+             impact_dissipation + hourglass - external_work;
     }
   };
 } // namespace akmon

@@ -12,6 +12,7 @@
 #include <akmon/time/fidcd.h>
 
 #include <stdexcept>
+#include <string>
 
 namespace akmon
 {
@@ -42,12 +43,20 @@ namespace akmon
     Monitor(const Case &parameters, const Watched &watched);
 
     /**
-     * Step 9: account for the time level and write what is due (collective).
-     * @param last  the final level: everything is written
-     * Throws RunError if the energy error is beyond its bound.
+     * Step 9: account for the time level (collective). Energies are summed where a history row is
+     * due, and at least every 16 levels to guard their bound.
+     * @param last  the final level
      */
     void
     observe(const bool last);
+
+    /**
+     * Write the history row and the fields that are due, both at the first and the last level
+     * (collective). Throws RunError if the energy error or the hourglass energy is beyond its
+     * bound.
+     */
+    void
+    write(const bool last);
 
     /// Write the fields of the current level whatever is due, to look at what went wrong.
     void
@@ -80,6 +89,8 @@ namespace akmon
     write_row();
     std::vector<double>
     momenta() const;
+    std::string
+    energy_fault() const;
     void
     check_energy() const;
 
@@ -96,6 +107,7 @@ namespace akmon
     ContactReport report;
     double penetration = 0., penetration_relative = 0.; ///< since the last row
     Extremes worst;
+    bool row_due       = false;
     bool level_written = false; ///< whether the fields of this level are on disk
   };
 } // namespace akmon

@@ -33,8 +33,9 @@ namespace akmon
   struct OutputParameters
   {
     OutputTick fields, history;
-    bool deformed             = true; ///< meshes are written in the current configuration
-    double energy_error_bound = 0.05; ///< relative; the run stops beyond
+    bool deformed                 = true; ///< meshes are written in the current configuration
+    double energy_error_bound     = 0.05; ///< relative; the run stops beyond
+    double hourglass_energy_bound = 0.1;  ///< relative; the run stops beyond
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -10,6 +10,9 @@ namespace akmon
   /**
    * Largest eigenvalue omega^2 of the free cell, M^{-1} K u = omega^2 u with lumped nodal masses,
    * by a few steps of Lanczos' method. No assembled frequency exceeds the largest cell frequency.
+   * One-point cells are taken for mean dilatation: the mean strain has no more energy than the
+   * strain at every point, and an allowed hourglass coefficient gives the patterns less stiffness
+   * than they have.
    *
    * @param x        node positions [node][component], length
    * @param mass     the cell's share of the nodal masses [node]

@@ -22,10 +22,12 @@ namespace
 
 
   void
-  expect_stop(const std::vector<std::string> &overrides, const std::string &reason)
+  expect_stop(const std::vector<std::string> &overrides,
+              const std::string &reason,
+              const std::string &name = "two_bars")
   {
     const ScratchDirectory scratch;
-    std::vector<std::string> arguments = {shipped("two_bars"),
+    std::vector<std::string> arguments = {shipped(name),
                                           "--set",
                                           "Output directory=" + scratch.path,
                                           "--set",
@@ -51,6 +53,25 @@ namespace
   TEST(Run, stops_on_an_energy_error_beyond_the_bound)
   {
     expect_stop({"Output/Energy error bound=1e-9"}, "energy error");
+  }
+
+
+  // Without history rows the energies are looked at all the same.
+  TEST(Run, stops_on_an_energy_error_without_history)
+  {
+    expect_stop({"Output/Energy error bound=1e-9", "Output/History steps=0"}, "energy error");
+  }
+
+
+  TEST(Run, stops_on_hourglass_energy_beyond_the_bound)
+  {
+    // At its default bound, 0.1, the run reaches its end with 0.0093.
+    expect_stop({"Output/Hourglass energy bound=0.005",
+                 "Bodies/bar/Cylinder/Cells across=4",
+                 "Bodies/bar/Cylinder/Cells radial=2",
+                 "Bodies/bar/Cylinder/Cells axial=24"},
+                "hourglass energy",
+                "taylor_bar_one_point");
   }
 
 

@@ -37,6 +37,14 @@ namespace
   }
 
 
+  // An independent one-point code with Flanagan-Belytschko stiffness on the same mesh.
+  TEST(TaylorBarCoarse, one_point)
+  {
+    expect_taylor_bar(run_taylor_bar(taylor_288, {"Bodies/bar/Integration=one point"}),
+                      {7.122, 21.518, 2.50});
+  }
+
+
   TEST(TaylorBarCoarse, full_integration_locks)
   {
     expect_taylor_bar(run_taylor_bar(taylor_288, {"Bodies/bar/Integration=full"}),
