@@ -5,7 +5,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace akmon
 {
@@ -21,6 +23,7 @@ namespace akmon
     , friction(timer.add("contact.resolve_friction"))
     , correct(timer.add("integrator.correct"))
     , observe(timer.add("monitor.observe"))
+    , checkpoint(timer.add("checkpoint.write"))
   {
   }
 
@@ -52,13 +55,12 @@ namespace akmon
 
 
   void
-  Simulation::run()
+  Simulation::run(const std::string &checkpoint)
   {
-    prepare_output_directory(parameters.output_directory, communicator);
-    run_on_root(communicator, [&]() {
-      replace_file(parameters.output_directory + "/parameters.prm", parameters.as_used);
-    });
-    monitor    = std::make_unique<Monitor>(parameters,
+    if (checkpoint.empty())
+      prepare_output_directory(parameters.output_directory, communicator);
+    checkpoint_tick = parameters.checkpoint.tick;
+    monitor         = std::make_unique<Monitor>(parameters,
                                         Monitor::Watched{discretization,
                                                          state,
                                                          integrator,
@@ -66,20 +68,31 @@ namespace akmon
                                                          external_forces,
                                                          conditions,
                                                          contact});
-    wall_start = std::chrono::steady_clock::now();
+    wall_start = last_checkpoint = std::chrono::steady_clock::now();
+    if (!checkpoint.empty())
+      restart(checkpoint);
+    run_on_root(communicator, [&]() {
+      replace_file(parameters.output_directory + "/parameters.prm", parameters.as_used);
+    });
     try
       {
-        start();
+        if (checkpoint.empty())
+          start();
         while (!parameters.time.finished(state.time))
-          step();
+          {
+            step();
+            write_checkpoint_if_due();
+          }
       }
-    catch (const RunError &)
+    catch (const RunError &error)
       {
-        monitor->write_fields();
-        stop();
+        if (error.status != ExitStatus::terminated && error.status != ExitStatus::output_failed)
+          leave_evidence();
+        if (error.status != ExitStatus::output_failed)
+          stop(error.status);
         throw;
       }
-    stop();
+    stop(ExitStatus::done);
   }
 
 
@@ -108,7 +121,7 @@ namespace akmon
     initial_velocity();
     state.force = 0.;
     external_forces.add(state, state.force); // the initial stress is zero
-    choose_step();
+    agree_on_step();
     print_header();
     integrator.start(velocity_0, state.dt_next);
     const double c = integrator.effective_mass_factor();
@@ -145,8 +158,7 @@ namespace akmon
     }
     {
       const StageTimer::Scope timing(stages.time_step);
-      check_cells();
-      choose_step();
+      agree_on_step();
     }
     {
       const StageTimer::Scope timing(stages.free_increment); // 4
@@ -175,18 +187,26 @@ namespace akmon
   }
 
 
+  // What all ranks must know of each other in a step, in one exchange: the largest frequency,
+  // whether anyone wants a checkpoint, whether a cell is beyond computing.
   void
-  Simulation::choose_step()
+  Simulation::agree_on_step()
   {
-    const double omega_squared = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
-                                                     communicator);
-    state.dt_next              = parameters.time.choose(state.time, omega_squared);
+    std::array<double, 3> of_all = {{internal_forces.largest_frequency_squared(),
+                                     double(wanted_checkpoint()),
+                                     internal_forces.fault().occurred() ? 1. : 0.}};
+    Utilities::MPI::max(ArrayView<const double>(of_all.data(), of_all.size()),
+                        communicator,
+                        ArrayView<double>(of_all.data(), of_all.size()));
+    requested = static_cast<SignalWatch::Request>(int(of_all[1]));
+    if (of_all[2] > 0.)
+      throw_cell_fault();
+    state.dt_next = parameters.time.choose(state.time, of_all[0]);
   }
 
 
-  // A rank that met an inverted or non-finite cell stops them all.
   void
-  Simulation::check_cells()
+  Simulation::throw_cell_fault() const
   {
     const auto &fault   = internal_forces.fault();
     std::string message = !fault.occurred() ?
@@ -196,11 +216,10 @@ namespace akmon
                               " of body '" + fault.body + "' is inverted or not a number, near (" +
                               shortest_text(fault.place[0]) + ", " + shortest_text(fault.place[1]) +
                               ", " + shortest_text(fault.place[2]) + ")";
-    if (Utilities::MPI::max(int(fault.occurred()), communicator) == 0)
-      return;
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, message))
       if (!of_rank.empty())
-        throw RunError(of_rank);
+        message = of_rank;
+    throw RunError(ExitStatus::inverted_cell, message);
   }
 
 
@@ -260,13 +279,13 @@ namespace akmon
     progress.active_pairs          = monitor->active_pairs();
     progress.penetration_rel       = monitor->extremes().penetration_relative;
     progress.energy_error          = monitor->extremes().energy_error;
-    progress.cell_steps_per_second = double(n_cells) * state.step / wall.count();
+    progress.cell_steps_per_second = double(n_cells) * (state.step - first_step) / wall.count();
     screen.progress(progress);
   }
 
 
   void
-  Simulation::stop()
+  Simulation::stop(const ExitStatus status)
   {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
     const auto totals                        = timer.totals(communicator);
@@ -278,17 +297,22 @@ namespace akmon
     const auto &extremes = monitor->extremes();
     Summary summary;
     summary.set("title", parameters.title);
-    summary.set("completed", parameters.time.finished(state.time));
+    summary.set("completed", status == ExitStatus::done);
+    summary.set("exit_status", int(status));
     summary.set("time", state.time);
     summary.set("steps", state.step);
     summary.set("cells", n_cells);
     summary.set("ranks", Utilities::MPI::n_mpi_processes(communicator));
     summary.set("wall_seconds", wall.count());
-    summary.set("cell_steps_per_second", double(n_cells) * state.step / wall.count());
+    summary.set("cell_steps_per_second",
+                double(n_cells) * (state.step - first_step) / wall.count());
     summary.set("stage_seconds", seconds);
     summary.set("max_penetration", extremes.penetration);
     summary.set("max_penetration_rel", extremes.penetration_relative);
     summary.set("energy_error", extremes.energy_error);
+    char hash[20];
+    std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(state_hash()));
+    summary.set("state_hash", std::string(hash));
     summary.set("warnings", screen.warnings());
     summary.write(parameters.output_directory + "/summary.json", communicator);
   }

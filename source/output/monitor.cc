@@ -195,10 +195,11 @@ namespace akmon
   Monitor::check_energy() const
   {
     if (!(std::abs(worst.energy_error) <= parameters.output.energy_error_bound))
-      throw RunError("step " + std::to_string(watched.state.step) + ", time " +
-                     shortest_text(watched.state.time) + ": energy error " +
-                     shortest_text(worst.energy_error) + " is beyond the bound " +
-                     shortest_text(parameters.output.energy_error_bound) +
-                     " ([Output] Energy error bound)");
+      throw RunError(ExitStatus::energy_error,
+                     "step " + std::to_string(watched.state.step) + ", time " +
+                       shortest_text(watched.state.time) + ": energy error " +
+                       shortest_text(worst.energy_error) + " is beyond the bound " +
+                       shortest_text(parameters.output.energy_error_bound) +
+                       " ([Output] Energy error bound)");
   }
 } // namespace akmon

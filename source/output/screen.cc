@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -194,6 +195,15 @@ namespace akmon
     given_warnings.push_back(text);
     if (root)
       print_above_progress("Warning: " + text);
+  }
+
+
+  void
+  Screen::recall(const std::string &earlier)
+  {
+    std::istringstream lines(earlier);
+    for (std::string line; std::getline(lines, line);)
+      given_warnings.push_back(line);
   }
 
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/checkpoint/checkpoint.h>
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/coupled_solver.h>
@@ -103,6 +104,21 @@ namespace akmon
     {
       return pairs;
     }
+
+    /// What the next step takes over from this one: the forces of the pairs (collective).
+    void
+    save(CheckpointWriter &checkpoint) const;
+
+    /// Take it back, for the owned slaves (collective).
+    void
+    restore(const CheckpointReader &checkpoint);
+
+    /**
+     * Build everything anew in the next search that is kept between steps to save time. After a
+     * checkpoint this makes a run go on as one that is restarted from it.
+     */
+    void
+    forget_shortcuts();
 
     /// Relevant boundary faces that take part in contact.
     std::vector<BoundaryFace>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/checkpoint/checkpoint.h>
 #include <akmon/forces/cell_batches.h>
 
 #include <limits>
@@ -92,6 +93,15 @@ namespace akmon
     {
       return body_batches;
     }
+
+    /// Stresses, internal variables and frequencies of all cells in global order, and the works
+    /// (collective).
+    void
+    save(CheckpointWriter &checkpoint) const;
+
+    /// Take them back, those of ghost cells too.
+    void
+    restore(const CheckpointReader &checkpoint);
 
   private:
     void

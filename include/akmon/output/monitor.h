@@ -2,6 +2,7 @@
 
 #include <akmon/case.h>
 #include <akmon/contact/contact.h>
+#include <akmon/exit_status.h>
 #include <akmon/forces/external_forces.h>
 #include <akmon/forces/internal_forces.h>
 #include <akmon/model/essential_conditions.h>
@@ -11,18 +12,8 @@
 #include <akmon/output/probes.h>
 #include <akmon/time/fidcd.h>
 
-#include <stdexcept>
-
 namespace akmon
 {
-  /// The run cannot go on or must not be trusted: exit status 1 with the step and place.
-  class RunError : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
-
-
   /// Watches the run: energies and momenta, penetration, probes, output ticks.
   class Monitor
   {
@@ -52,6 +43,25 @@ namespace akmon
     /// Write the fields of the current level whatever is due, to look at what went wrong.
     void
     write_fields();
+
+    /// Sums, extremes, ticks and how far the output files have come (collective).
+    void
+    save(CheckpointWriter &checkpoint);
+
+    /// Take them back. Throws InputError if the history there does not fit (collective).
+    void
+    restore(const CheckpointReader &checkpoint);
+
+    /// Make the output files what they were at the checkpoint (collective).
+    void
+    continue_output();
+
+    /// Field files written so far.
+    std::size_t
+    n_field_files() const
+    {
+      return fields.n_files();
+    }
 
     struct Extremes
     {
@@ -96,6 +106,7 @@ namespace akmon
     ContactReport report;
     double penetration = 0., penetration_relative = 0.; ///< since the last row
     Extremes worst;
-    bool level_written = false; ///< whether the fields of this level are on disk
+    bool level_written         = false; ///< whether the fields of this level are on disk
+    std::uint64_t history_size = 0;     ///< at the checkpoint the run goes on from; bytes
   };
 } // namespace akmon

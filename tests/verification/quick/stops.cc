@@ -22,7 +22,9 @@ namespace
 
 
   void
-  expect_stop(const std::vector<std::string> &overrides, const std::string &reason)
+  expect_stop(const std::vector<std::string> &overrides,
+              const std::string &reason,
+              const int status)
   {
     const ScratchDirectory scratch;
     std::vector<std::string> arguments = {shipped("two_bars"),
@@ -36,7 +38,7 @@ namespace
         arguments.push_back(entry);
       }
     const auto result = run_program(arguments);
-    EXPECT_EQ(result.status, 1);
+    EXPECT_EQ(result.status, status);
     EXPECT_NE(result.output.find("akmon: error: "), std::string::npos) << result.output;
     EXPECT_NE(result.output.find(reason), std::string::npos) << result.output;
     EXPECT_NE(result.output.find("step "), std::string::npos);
@@ -50,14 +52,15 @@ namespace
 
   TEST(Run, stops_on_an_energy_error_beyond_the_bound)
   {
-    expect_stop({"Output/Energy error bound=1e-9"}, "energy error");
+    expect_stop({"Output/Energy error bound=1e-9"}, "energy error", 4);
   }
 
 
   TEST(Run, stops_on_inverted_cells)
   {
     expect_stop({"Time/Step=4e-6", "Output/Energy error bound=1e300"},
-                "is inverted or not a number");
+                "is inverted or not a number",
+                2);
   }
 
 
