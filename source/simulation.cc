@@ -46,6 +46,9 @@ namespace akmon
     , n_cells(discretization.triangulation.n_global_active_cells())
     , stages(timer)
   {
+    initial_frequency_squared = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
+                                                    communicator);
+    refuse_unstable_step();
     refuse_body_overlap(discretization);
     contact.search(state);
     contact.refuse_initial_overlap(state);
@@ -187,51 +190,13 @@ namespace akmon
   }
 
 
-  // What all ranks must know of each other in a step, in one exchange: the largest frequency,
-  // whether anyone wants a checkpoint, whether a cell is beyond computing.
-  void
-  Simulation::agree_on_step()
-  {
-    std::array<double, 3> of_all = {{internal_forces.largest_frequency_squared(),
-                                     double(wanted_checkpoint()),
-                                     internal_forces.fault().occurred() ? 1. : 0.}};
-    Utilities::MPI::max(ArrayView<const double>(of_all.data(), of_all.size()),
-                        communicator,
-                        ArrayView<double>(of_all.data(), of_all.size()));
-    requested = static_cast<SignalWatch::Request>(int(of_all[1]));
-    if (of_all[2] > 0.)
-      throw_cell_fault();
-    state.dt_next = parameters.time.choose(state.time, of_all[0]);
-  }
-
-
-  void
-  Simulation::throw_cell_fault() const
-  {
-    const auto &fault   = internal_forces.fault();
-    std::string message = !fault.occurred() ?
-                            "" :
-                            "step " + std::to_string(state.step) + ", time " +
-                              shortest_text(state.time) + ": cell " + std::to_string(fault.cell) +
-                              " of body '" + fault.body + "' is inverted or not a number, near (" +
-                              shortest_text(fault.place[0]) + ", " + shortest_text(fault.place[1]) +
-                              ", " + shortest_text(fault.place[2]) + ")";
-    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, message))
-      if (!of_rank.empty())
-        message = of_rank;
-    throw RunError(ExitStatus::inverted_cell, message);
-  }
-
-
   void
   Simulation::print_header()
   {
-    const double critical = 2. / std::sqrt(
-                                   Utilities::MPI::max(internal_forces.largest_frequency_squared(),
-                                                       communicator));
+    const double critical = 2. / std::sqrt(initial_frequency_squared);
     // The rank whose cell limits the step says where that is.
     std::string limit;
-    if (2. / std::sqrt(internal_forces.largest_frequency_squared()) == critical &&
+    if (internal_forces.largest_initial_frequency_squared() == initial_frequency_squared &&
         !discretization.cells.empty())
       {
         const auto &cell = discretization.cells[internal_forces.limiting_cell()];
@@ -307,6 +272,7 @@ namespace akmon
     summary.set("cell_steps_per_second",
                 double(n_cells) * (state.step - first_step) / wall.count());
     summary.set("stage_seconds", seconds);
+    summary.set("eroded_cells", n_eroded);
     summary.set("max_penetration", extremes.penetration);
     summary.set("max_penetration_rel", extremes.penetration_relative);
     summary.set("energy_error", extremes.energy_error);

@@ -55,8 +55,8 @@ namespace akmon
     last_checkpoint = std::chrono::steady_clock::now();
     if (requested == SignalWatch::stop && !parameters.time.finished(state.time))
       throw RunError(ExitStatus::terminated,
-                     "step " + std::to_string(state.step) + ", time " + shortest_text(state.time) +
-                       ": stopped by SIGTERM; akmon --restart '" + directory + "' goes on");
+                     level_text() + "stopped by SIGTERM; akmon --restart '" + directory +
+                       "' goes on");
     requested = SignalWatch::none;
   }
 
@@ -85,9 +85,7 @@ namespace akmon
       }
     catch (const std::runtime_error &error)
       {
-        throw RunError(ExitStatus::output_failed,
-                       "step " + std::to_string(state.step) + ", time " +
-                         shortest_text(state.time) + ": " + error.what());
+        throw RunError(ExitStatus::output_failed, level_text() + error.what());
       }
   }
 
@@ -131,6 +129,8 @@ namespace akmon
           refuse("its mesh or its materials are not those of the case");
         state.restore(reader);
         internal_forces.restore(reader);
+        n_eroded_here = internal_forces.n_eroded();
+        n_eroded      = Utilities::MPI::sum(n_eroded_here, communicator);
         contact.restore(reader);
         monitor->restore(reader);
         checkpoint_tick.next = reader.numbers("checkpoint_tick").at(0);

@@ -90,8 +90,16 @@ namespace akmon
     print_header();
     void
     show_progress();
+    void
+    refuse_unstable_step() const;
     [[noreturn]] void
     throw_cell_fault() const;
+    void
+    keep_step_from_collapsing(double &frequency_squared);
+    void
+    count_eroded();
+    std::string
+    level_text() const;
 
     const Case parameters;
     const MPI_Comm communicator;
@@ -112,7 +120,9 @@ namespace akmon
     OutputTick checkpoint_tick;
     SignalWatch::Request requested = SignalWatch::none; ///< in this step, the same on all ranks
     std::chrono::steady_clock::time_point wall_start, last_checkpoint;
-    unsigned long n_cells = 0, first_step = 0; ///< first_step: where this part of the run began
+    unsigned long n_cells = 0, first_step = 0;     ///< first_step: where this part of the run began
+    unsigned long n_eroded = 0, n_eroded_here = 0; ///< of all ranks, of this one
+    double initial_frequency_squared = 0.;         ///< largest omega^2 of all ranks at the start
 
     struct Stages
     {

@@ -39,7 +39,7 @@ namespace akmon
 
 
     // Calls visitor(number in a row, value) for all that is known of a cell: its Gauss points one
-    // after the other, then omega^2 and its growth.
+    // after the other, behind omega^2, its growth and whether the cell was taken out.
     template <typename Batches, typename Visitor>
     void
     visit_cell(Batches &batches, const std::size_t cell, const Visitor &visitor)
@@ -50,8 +50,9 @@ namespace akmon
       auto *const frequencies = &batches.frequencies[batch * 2 * n_lanes] + lane;
       visitor(0, frequencies[0]);
       visitor(1, frequencies[n_lanes]);
+      visitor(2, batches.eroded[cell]);
       for (unsigned int i = 0; i < n; ++i)
-        visitor(2 + i, state[i * n_lanes]);
+        visitor(3 + i, state[i * n_lanes]);
     }
 
 
@@ -77,12 +78,13 @@ namespace akmon
     unsigned int n_components = 0;
     for (const auto &batches : body_batches)
       n_components = std::max(n_components, batches.n_components);
-    const auto places = cells_in_global_order(discretization, body_batches, true);
+    const std::size_t width = 3 + CellBatches::n_points * n_components;
+    const auto places       = cells_in_global_order(discretization, body_batches, true);
     checkpoint.table("cells",
                      places.size(),
-                     2 + CellBatches::n_points * n_components,
+                     width,
                      [&](const std::size_t row, double *const values) {
-                       std::fill(values, values + 2 + CellBatches::n_points * n_components, 0.);
+                       std::fill(values, values + width, 0.);
                        visit_cell(body_batches[places[row].body],
                                   places[row].cell,
                                   [&](const unsigned int i, const double x) { values[i] = x; });
@@ -112,8 +114,14 @@ namespace akmon
                         });
         i = end;
       }
+    n_eroded_cells = 0;
     for (auto &batches : body_batches)
-      fill_up(batches);
+      {
+        fill_up(batches);
+        for (std::size_t cell = 0; cell < batches.owned.size(); ++cell)
+          if (batches.is_eroded(cell))
+            erode(batches, cell);
+      }
     const auto works            = checkpoint.sum_of_rank("work", discretization.communicator());
     work                        = works.at(0);
     dissipated                  = works.at(1);

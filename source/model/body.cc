@@ -19,6 +19,13 @@ namespace akmon
                      dealii::Patterns::Selection("mean dilatation|full"),
                      "Integration of the stress power: 2 x 2 x 2 Gauss points, with the dilatation "
                      "averaged over the cell (does not lock) or not");
+    prm.declare_entry(
+      "Failing cells",
+      "stop",
+      dealii::Patterns::Selection("stop|erode"),
+      "A cell that turns inside out, or makes the automatic step collapse, stops the "
+      "run, or is eroded: it carries no stress from then on, its mass stays with its "
+      "nodes");
     prm.declare_entry("Refinement",
                       "0",
                       dealii::Patterns::Integer(0, 10),
@@ -49,6 +56,7 @@ namespace akmon
       throw InputError(section, "Material", "(none)", "allowed are the names in Materials/Names");
     integration = prm.get("Integration") == "full" ? CellIntegration::full :
                                                      CellIntegration::mean_dilatation;
+    erodes      = prm.get("Failing cells") == "erode";
     refinement  = prm.get_integer("Refinement");
     position    = get_vector(prm, section, "Position");
     velocity    = get_vector(prm, section, "Velocity");

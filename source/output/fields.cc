@@ -109,7 +109,7 @@ namespace akmon
 
     const unsigned int n = triangulation.n_active_cells();
     std::vector<Symmetric3<double>> stresses(n, {{0., 0., 0., 0., 0., 0.}});
-    Vector<float> von_mises(n), plastic_strain(n), body(n), rank(n);
+    Vector<float> von_mises(n), plastic_strain(n), body(n), rank(n), eroded(n);
     for (const auto &batches : internal_forces.batches())
       for (std::size_t c = 0; c < batches.n_cells; ++c)
         {
@@ -120,6 +120,7 @@ namespace akmon
           von_mises[i]       = std::sqrt(equivalent_stress_squared(average.stress));
           plastic_strain[i]  = average.plastic_strain;
           body[i]            = relevant.body;
+          eroded[i]          = batches.is_eroded(c) ? 1. : 0.;
           rank[i]            = relevant.cell->subdomain_id();
         }
 
@@ -151,6 +152,7 @@ namespace akmon
     data_out.add_data_vector(plastic_strain, "plastic_strain", DataOut<3>::type_cell_data);
     data_out.add_data_vector(body, "body", DataOut<3>::type_cell_data);
     data_out.add_data_vector(rank, "rank", DataOut<3>::type_cell_data);
+    data_out.add_data_vector(eroded, "eroded", DataOut<3>::type_cell_data);
     if (deformed)
       data_out.build_patches(MappingQ1Eulerian<3, NodalVector>(dof_handler, displacement), 1);
     else

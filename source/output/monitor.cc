@@ -56,7 +56,11 @@ namespace akmon
   {
     level_written = false;
     account_work();
-    report               = watched.contact.report(watched.state);
+    report = watched.contact.report(watched.state);
+    if (report.max_penetration_relative > deepest.size)
+      deepest = {report.max_penetration_relative,
+                 report.place,
+                 watched.discretization.body_of_node[report.deepest]};
     penetration          = std::max(penetration, report.max_penetration);
     penetration_relative = std::max(penetration_relative, report.max_penetration_relative);
 
@@ -70,7 +74,10 @@ namespace akmon
     if (fields_due || last || watched.state.step == 0)
       write_fields();
     if (history_due || last)
-      check_energy();
+      {
+        check_contact();
+        check_energy();
+      }
   }
 
 
@@ -188,18 +195,5 @@ namespace akmon
     append(sums);
     append(probes.values(watched.state));
     history.write_row(row);
-  }
-
-
-  void
-  Monitor::check_energy() const
-  {
-    if (!(std::abs(worst.energy_error) <= parameters.output.energy_error_bound))
-      throw RunError(ExitStatus::energy_error,
-                     "step " + std::to_string(watched.state.step) + ", time " +
-                       shortest_text(watched.state.time) + ": energy error " +
-                       shortest_text(worst.energy_error) + " is beyond the bound " +
-                       shortest_text(parameters.output.energy_error_bound) +
-                       " ([Output] Energy error bound)");
   }
 } // namespace akmon

@@ -34,6 +34,12 @@ namespace akmon
       Double(0.),
       "The run stops when the energy error, relative to the largest energy so far, is "
       "beyond this at a history row (dimensionless)");
+    prm.declare_entry(
+      "Penetration bound",
+      "0.25",
+      Double(0.),
+      "The run stops when a penetration over the cell size is beyond this at a history "
+      "row: contact was lost (dimensionless)");
   }
 
 
@@ -46,6 +52,7 @@ namespace akmon
     history.steps      = prm.get_integer("History steps");
     deformed           = prm.get("Configuration") == "deformed";
     energy_error_bound = prm.get_double("Energy error bound");
+    penetration_bound  = prm.get_double("Penetration bound");
   }
 
 

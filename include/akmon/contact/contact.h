@@ -21,7 +21,8 @@ namespace akmon
     double max_penetration          = 0.; ///< length
     double max_penetration_relative = 0.; ///< over the size of the cell faces at the slave
     dealii::Point<3> place;               ///< of the largest relative penetration
-    unsigned int active_pairs   = 0;
+    unsigned int deepest      = dealii::numbers::invalid_unsigned_int; ///< its slave, local number
+    unsigned int active_pairs = 0;
     unsigned int sticking_pairs = 0;
     unsigned int iterations     = 0;          ///< of the coupled solver, the same on all ranks
     std::vector<dealii::Tensor<1, 3>> forces; ///< per interface, on the surfaces named as slaves

@@ -29,6 +29,7 @@ namespace akmon
     dealii::Tensor<1, 3> spin;     ///< initial angular velocity about the centre of volume, 1/time
     std::string material;
     CellIntegration integration = CellIntegration::mean_dilatation;
+    bool erodes = false; ///< cells that fail are taken out instead of ending the run
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -91,7 +91,22 @@ namespace akmon
     std::vector<double>
     momenta() const;
     void
+    check_contact() const;
+    void
     check_energy() const;
+
+    // Where something is largest on this rank.
+    struct Extremum
+    {
+      double size = 0.;
+      dealii::Point<3> place;
+      unsigned int body = 0;
+    };
+
+    std::string
+    describe(const Extremum &of_rank) const;
+    std::string
+    level() const;
 
     const Case &parameters;
     Watched watched;
@@ -105,6 +120,7 @@ namespace akmon
     double initial_energy = 0., largest_energy = 0.;
     ContactReport report;
     double penetration = 0., penetration_relative = 0.; ///< since the last row
+    Extremum deepest;                                   ///< penetration over the cell size so far
     Extremes worst;
     bool level_written         = false; ///< whether the fields of this level are on disk
     std::uint64_t history_size = 0;     ///< at the checkpoint the run goes on from; bytes

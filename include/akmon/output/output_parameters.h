@@ -38,6 +38,7 @@ namespace akmon
     OutputTick fields, history;
     bool deformed             = true; ///< meshes are written in the current configuration
     double energy_error_bound = 0.05; ///< relative; the run stops beyond
+    double penetration_bound  = 0.25; ///< over the cell size; the run stops beyond
 
     static void
     declare(dealii::ParameterHandler &prm);
