@@ -76,8 +76,9 @@ namespace
         akmon::Simulation simulation(akmon::Case::read(start.file, start.overrides),
                                      MPI_COMM_WORLD);
         if (!only_validate)
-          simulation.run(start.checkpoint);
-        else if (root)
+          return simulation.run(start.checkpoint);
+        simulation.warn_of_oddities();
+        if (root)
           std::cout << start.file << " is valid\n";
       }
     catch (const akmon::InputError &error)

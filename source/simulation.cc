@@ -1,6 +1,7 @@
 #include <akmon/contact/initial_overlap.h>
 #include <akmon/output/directory.h>
 #include <akmon/output/summary.h>
+#include <akmon/plausibility.h>
 #include <akmon/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -117,11 +118,22 @@ namespace akmon
   }
 
 
+  void
+  Simulation::warn_of_oddities()
+  {
+    if (velocity_0.size() == 0)
+      initial_velocity();
+    for (const auto &warning : plausibility_warnings(parameters, discretization, velocity_0))
+      screen.warning(warning);
+  }
+
+
   // The starting step (28)(29), with contact.
   void
   Simulation::start()
   {
     initial_velocity();
+    warn_of_oddities();
     state.force = 0.;
     external_forces.add(state, state.force); // the initial stress is zero
     agree_on_step();

@@ -37,6 +37,10 @@ namespace akmon
     void
     run(const std::string &checkpoint = "");
 
+    /// Show what looks like a mistake in the case (collective); run() does it too.
+    void
+    warn_of_oddities();
+
     /// See akmon::state_hash().
     std::uint64_t
     state_hash() const;
