@@ -268,9 +268,12 @@ namespace akmon
     const auto totals                        = timer.totals(communicator);
     screen.closing(totals, wall.count());
 
-    std::map<std::string, double> seconds;
+    std::map<std::string, double> seconds, imbalance;
     for (const auto &total : totals)
-      seconds[total.name] = total.seconds;
+      {
+        seconds[total.name]   = total.seconds;
+        imbalance[total.name] = total.imbalance;
+      }
     const auto &extremes = monitor->extremes();
     Summary summary;
     summary.set("title", parameters.title);
@@ -284,6 +287,7 @@ namespace akmon
     summary.set("cell_steps_per_second",
                 double(n_cells) * (state.step - first_step) / wall.count());
     summary.set("stage_seconds", seconds);
+    summary.set("stage_imbalance", imbalance);
     summary.set("eroded_cells", n_eroded);
     summary.set("max_penetration", extremes.penetration);
     summary.set("max_penetration_rel", extremes.penetration_relative);

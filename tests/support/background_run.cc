@@ -5,6 +5,7 @@
 #include <fcntl.h>
 #include <filesystem>
 #include <stdexcept>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <thread>
 #include <unistd.h>
@@ -71,8 +72,10 @@ namespace akmon::test
   BackgroundRun::wait()
   {
     int status = 0;
-    waitpid(process, &status, 0);
-    ended = true;
+    rusage usage{};
+    wait4(process, &status, 0, &usage);
+    memory = usage.ru_maxrss;
+    ended  = true;
     return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
   }
 } // namespace akmon::test

@@ -29,8 +29,16 @@ namespace akmon::test
     int
     wait();
 
+    /// Largest resident memory of the ended program; kB.
+    long
+    largest_memory() const
+    {
+      return memory;
+    }
+
   private:
     pid_t process;
-    bool ended = false;
+    long memory = 0;
+    bool ended  = false;
   };
 } // namespace akmon::test
