@@ -13,7 +13,7 @@ namespace akmon
   {
     // A pair's row in a checkpoint. Slaves go by their global node numbers, which are the same on
     // any number of ranks.
-    constexpr std::size_t row_width = 8;
+    constexpr std::size_t row_width = 10;
 
 
     void
@@ -26,6 +26,8 @@ namespace akmon
       for (unsigned int d = 0; d < 3; ++d)
         row[4 + d] = pair.tangential_force[d];
       row[7] = pair.sticks ? 1. : 0.;
+      row[8] = pair.slot;
+      row[9] = pair.curvature;
     }
 
 
@@ -38,7 +40,9 @@ namespace akmon
       pair.normal_force = row[3];
       for (unsigned int d = 0; d < 3; ++d)
         pair.tangential_force[d] = row[4 + d];
-      pair.sticks = row[7] != 0.;
+      pair.sticks    = row[7] != 0.;
+      pair.slot      = row[8];
+      pair.curvature = row[9];
       return pair;
     }
   } // namespace
@@ -49,7 +53,7 @@ namespace akmon
   {
     std::vector<const ContactPair *> carrying; // the others start from nothing
     for (const auto &pair : pairs)
-      if (pair.normal_force != 0.)
+      if (pair.normal_force != 0. || pair.curvature != 0.)
         carrying.push_back(&pair);
     checkpoint.table("contact_pairs",
                      carrying.size(),
@@ -78,8 +82,8 @@ namespace akmon
                       pairs.back().slave_id = nodes.id_of_local(pairs.back().slave);
                     });
     std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-      return std::tie(a.interface, a.reversed, a.slave_id) <
-             std::tie(b.interface, b.reversed, b.slave_id);
+      return std::tie(a.interface, a.reversed, a.slave_id, a.slot) <
+             std::tie(b.interface, b.reversed, b.slave_id, b.slot);
     });
     forget_shortcuts();
   }
@@ -88,6 +92,8 @@ namespace akmon
   void
   Contact::forget_shortcuts()
   {
-    prepared = false;
+    prepared  = false;
+    travelled = 0.;
+    coupled.start_afresh();
   }
 } // namespace akmon
