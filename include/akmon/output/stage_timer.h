@@ -71,8 +71,8 @@ namespace akmon
     totals() const;
 
     /**
-     * Like totals(), with the largest seconds and calls of any rank and the imbalance. Collective; needs the same
-     * stages registered in the same order on all ranks, though not all of them used.
+     * Like totals(), with the largest seconds and calls of any rank and the imbalance. Collective;
+     * needs the same stages registered in the same order on all ranks, though not all of them used.
      */
     std::vector<Total>
     totals(const MPI_Comm comm) const;
