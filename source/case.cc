@@ -120,6 +120,9 @@ namespace akmon
       prm.enter_subsection("Output");
       OutputParameters::declare(prm);
       prm.leave_subsection();
+      prm.enter_subsection("Checkpoint");
+      CheckpointParameters::declare(prm);
+      prm.leave_subsection();
     }
 
 
@@ -294,6 +297,7 @@ namespace akmon
       result.planes   = parse_items<RigidPlane>(prm, names, "Obstacles");
       result.probes   = parse_items<Probe>(prm, names, "Probes");
       parse_section(prm, "Output", result.output);
+      parse_section(prm, "Checkpoint", result.checkpoint);
       check_materials(result);
       std::ostringstream as_used;
       prm.print_parameters(as_used, ParameterHandler::PRM);

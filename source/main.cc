@@ -1,4 +1,6 @@
 #include <akmon/case.h>
+#include <akmon/checkpoint/restart.h>
+#include <akmon/exit_status.h>
 #include <akmon/parameters.h>
 #include <akmon/simulation.h>
 
@@ -13,6 +15,7 @@ namespace
 {
   const char *const usage =
     "usage: akmon FILE.prm [--set \"Section/Sub/Key=value\"]...   run a case\n"
+    "       akmon --restart DIRECTORY|CHECKPOINT [--set ...]...  go on with the run in DIRECTORY\n"
     "       akmon --validate FILE.prm [--set ...]...             check a case without running it\n"
     "       akmon --print-parameters                             every parameter and its meaning\n"
     "       akmon --help | --version\n";
@@ -20,6 +23,7 @@ namespace
   struct Arguments
   {
     std::string file;
+    std::string restart; // directory or checkpoint
     std::vector<std::string> overrides;
     bool validate = false, print_parameters = false, help = false, version = false;
   };
@@ -36,6 +40,10 @@ namespace
           arguments.overrides.emplace_back(argv[++i]);
         else if (argument == "--set")
           throw akmon::InputError("--set needs \"Section/Sub/Key=value\" after it");
+        else if (argument == "--restart" && i + 1 < argc)
+          arguments.restart = argv[++i];
+        else if (argument == "--restart")
+          throw akmon::InputError("--restart needs the directory of a run after it");
         else if (argument == "--validate")
           arguments.validate = true;
         else if (argument == "--print-parameters")
@@ -50,10 +58,33 @@ namespace
           throw akmon::InputError("argument '" + argument +
                                   "' is not understood; see akmon --help");
       }
-    if (arguments.file.empty() && !arguments.print_parameters && !arguments.help &&
-        !arguments.version)
+    if (!arguments.restart.empty() && !arguments.file.empty())
+      throw akmon::InputError("--restart goes on with the parameters.prm in its directory; '" +
+                              arguments.file + "' is one too many");
+    if (arguments.file.empty() && arguments.restart.empty() && !arguments.print_parameters &&
+        !arguments.help && !arguments.version)
       throw akmon::InputError("a parameter file is missing; see akmon --help");
     return arguments;
+  }
+
+
+  void
+  run_case(const akmon::Restart &start, const bool only_validate, const bool root)
+  {
+    try
+      {
+        akmon::Simulation simulation(akmon::Case::read(start.file, start.overrides),
+                                     MPI_COMM_WORLD);
+        if (!only_validate)
+          return simulation.run(start.checkpoint);
+        simulation.warn_of_oddities();
+        if (root)
+          std::cout << start.file << " is valid\n";
+      }
+    catch (const akmon::InputError &error)
+      {
+        throw akmon::InputError(start.file + ": " + error.what());
+      }
   }
 
 
@@ -66,21 +97,12 @@ namespace
       std::cout << "akmon " AKMON_VERSION "\n";
     else if (arguments.print_parameters && root)
       akmon::Case::print_reference(std::cout);
-    if (arguments.file.empty())
-      return;
-    try
-      {
-        akmon::Simulation simulation(akmon::Case::read(arguments.file, arguments.overrides),
-                                     MPI_COMM_WORLD);
-        if (!arguments.validate)
-          simulation.run();
-        else if (root)
-          std::cout << arguments.file << " is valid\n";
-      }
-    catch (const akmon::InputError &error)
-      {
-        throw akmon::InputError(arguments.file + ": " + error.what());
-      }
+    if (!arguments.restart.empty())
+      run_case(akmon::find_restart(arguments.restart, arguments.overrides),
+               arguments.validate,
+               root);
+    else if (!arguments.file.empty())
+      run_case({arguments.file, arguments.overrides, ""}, arguments.validate, root);
   }
 
 
@@ -118,19 +140,30 @@ main(int argc, char **argv)
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   MPI_Comm for_errors;
   MPI_Comm_dup(MPI_COMM_WORLD, &for_errors);
-  int status = 0;
+  int status           = static_cast<int>(akmon::ExitStatus::done);
+  const auto fail_with = [&](const akmon::ExitStatus failure, const std::string &error) {
+    status         = static_cast<int>(failure);
+    const bool all = all_ranks_fail(for_errors);
+    if (root || !all)
+      report(error);
+    if (!all)
+      MPI_Abort(MPI_COMM_WORLD, status);
+  };
   try
     {
       run(read_arguments(argc, argv), root);
     }
+  catch (const akmon::InputError &error)
+    {
+      fail_with(akmon::ExitStatus::bad_input, error.what());
+    }
+  catch (const akmon::RunError &error)
+    {
+      fail_with(error.status, error.what());
+    }
   catch (const std::exception &error)
     {
-      status         = 1;
-      const bool all = all_ranks_fail(for_errors);
-      if (root || !all)
-        report(error.what());
-      if (!all)
-        MPI_Abort(MPI_COMM_WORLD, status);
+      fail_with(akmon::ExitStatus::unexpected_error, error.what());
     }
   MPI_Comm_free(&for_errors);
   return status;

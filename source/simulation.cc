@@ -1,11 +1,14 @@
 #include <akmon/contact/initial_overlap.h>
 #include <akmon/output/directory.h>
 #include <akmon/output/summary.h>
+#include <akmon/plausibility.h>
 #include <akmon/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 namespace akmon
 {
@@ -22,6 +25,7 @@ namespace akmon
     , correct(timer.add("integrator.correct"))
     , observe(timer.add("monitor.observe"))
     , output(timer.add("output.write"))
+    , checkpoint(timer.add("checkpoint.write"))
   {
   }
 
@@ -44,6 +48,9 @@ namespace akmon
     , n_cells(discretization.triangulation.n_global_active_cells())
     , stages(timer)
   {
+    initial_frequency_squared = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
+                                                    communicator);
+    refuse_unstable_step();
     refuse_body_overlap(discretization);
     contact.search(state);
     contact.refuse_initial_overlap(state);
@@ -53,13 +60,12 @@ namespace akmon
 
 
   void
-  Simulation::run()
+  Simulation::run(const std::string &checkpoint)
   {
-    prepare_output_directory(parameters.output_directory, communicator);
-    run_on_root(communicator, [&]() {
-      replace_file(parameters.output_directory + "/parameters.prm", parameters.as_used);
-    });
-    monitor    = std::make_unique<Monitor>(parameters,
+    if (checkpoint.empty())
+      prepare_output_directory(parameters.output_directory, communicator);
+    checkpoint_tick = parameters.checkpoint.tick;
+    monitor         = std::make_unique<Monitor>(parameters,
                                         Monitor::Watched{discretization,
                                                          state,
                                                          integrator,
@@ -67,20 +73,31 @@ namespace akmon
                                                          external_forces,
                                                          conditions,
                                                          contact});
-    wall_start = std::chrono::steady_clock::now();
+    wall_start = last_checkpoint = std::chrono::steady_clock::now();
+    if (!checkpoint.empty())
+      restart(checkpoint);
+    run_on_root(communicator, [&]() {
+      replace_file(parameters.output_directory + "/parameters.prm", parameters.as_used);
+    });
     try
       {
-        start();
+        if (checkpoint.empty())
+          start();
         while (!parameters.time.finished(state.time))
-          step();
+          {
+            step();
+            write_checkpoint_if_due();
+          }
       }
-    catch (const RunError &)
+    catch (const RunError &error)
       {
-        monitor->write_fields();
-        stop();
+        if (error.status != ExitStatus::terminated && error.status != ExitStatus::output_failed)
+          leave_evidence();
+        if (error.status != ExitStatus::output_failed)
+          stop(error.status);
         throw;
       }
-    stop();
+    stop(ExitStatus::done);
   }
 
 
@@ -102,14 +119,25 @@ namespace akmon
   }
 
 
+  void
+  Simulation::warn_of_oddities()
+  {
+    if (velocity_0.size() == 0)
+      initial_velocity();
+    for (const auto &warning : plausibility_warnings(parameters, discretization, velocity_0))
+      screen.warning(warning);
+  }
+
+
   // The starting step (28)(29), with contact.
   void
   Simulation::start()
   {
     initial_velocity();
+    warn_of_oddities();
     state.force = 0.;
     external_forces.add(state, state.force); // the initial stress is zero
-    choose_step();
+    agree_on_step();
     print_header();
     integrator.start(velocity_0, state.dt_next);
     const double c = integrator.effective_mass_factor();
@@ -147,8 +175,7 @@ namespace akmon
     }
     {
       const StageTimer::Scope timing(stages.time_step);
-      check_cells();
-      choose_step();
+      agree_on_step();
     }
     {
       const StageTimer::Scope timing(stages.free_increment); // 4
@@ -182,44 +209,12 @@ namespace akmon
 
 
   void
-  Simulation::choose_step()
-  {
-    const double omega_squared = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
-                                                     communicator);
-    internal_forces.govern(omega_squared);
-    state.dt_next = parameters.time.choose(state.time, omega_squared);
-  }
-
-
-  // A rank that met an inverted or non-finite cell stops them all.
-  void
-  Simulation::check_cells()
-  {
-    const auto &fault   = internal_forces.fault();
-    std::string message = !fault.occurred() ?
-                            "" :
-                            "step " + std::to_string(state.step) + ", time " +
-                              shortest_text(state.time) + ": cell " + std::to_string(fault.cell) +
-                              " of body '" + fault.body + "' is inverted or not a number, near (" +
-                              shortest_text(fault.place[0]) + ", " + shortest_text(fault.place[1]) +
-                              ", " + shortest_text(fault.place[2]) + ")";
-    if (Utilities::MPI::max(int(fault.occurred()), communicator) == 0)
-      return;
-    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, message))
-      if (!of_rank.empty())
-        throw RunError(of_rank);
-  }
-
-
-  void
   Simulation::print_header()
   {
-    const double critical = 2. / std::sqrt(
-                                   Utilities::MPI::max(internal_forces.largest_frequency_squared(),
-                                                       communicator));
+    const double critical = 2. / std::sqrt(initial_frequency_squared);
     // The rank whose cell limits the step says where that is.
     std::string limit;
-    if (2. / std::sqrt(internal_forces.largest_frequency_squared()) == critical &&
+    if (internal_forces.largest_initial_frequency_squared() == initial_frequency_squared &&
         !discretization.cells.empty())
       {
         const auto &cell = discretization.cells[internal_forces.limiting_cell()];
@@ -267,35 +262,45 @@ namespace akmon
     progress.active_pairs          = monitor->active_pairs();
     progress.penetration_rel       = monitor->extremes().penetration_relative;
     progress.energy_error          = monitor->extremes().energy_error;
-    progress.cell_steps_per_second = double(n_cells) * state.step / wall.count();
+    progress.cell_steps_per_second = double(n_cells) * (state.step - first_step) / wall.count();
     screen.progress(progress);
   }
 
 
   void
-  Simulation::stop()
+  Simulation::stop(const ExitStatus status)
   {
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
     const auto totals                        = timer.totals(communicator);
     screen.closing(totals, wall.count());
 
-    std::map<std::string, double> seconds;
+    std::map<std::string, double> seconds, imbalance;
     for (const auto &total : totals)
-      seconds[total.name] = total.seconds;
+      {
+        seconds[total.name]   = total.seconds;
+        imbalance[total.name] = total.imbalance;
+      }
     const auto &extremes = monitor->extremes();
     Summary summary;
     summary.set("title", parameters.title);
-    summary.set("completed", parameters.time.finished(state.time));
+    summary.set("completed", status == ExitStatus::done);
+    summary.set("exit_status", int(status));
     summary.set("time", state.time);
     summary.set("steps", state.step);
     summary.set("cells", n_cells);
     summary.set("ranks", Utilities::MPI::n_mpi_processes(communicator));
     summary.set("wall_seconds", wall.count());
-    summary.set("cell_steps_per_second", double(n_cells) * state.step / wall.count());
+    summary.set("cell_steps_per_second",
+                double(n_cells) * (state.step - first_step) / wall.count());
     summary.set("stage_seconds", seconds);
+    summary.set("stage_imbalance", imbalance);
+    summary.set("eroded_cells", n_eroded);
     summary.set("max_penetration", extremes.penetration);
     summary.set("max_penetration_rel", extremes.penetration_relative);
     summary.set("energy_error", extremes.energy_error);
+    char hash[20];
+    std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(state_hash()));
+    summary.set("state_hash", std::string(hash));
     summary.set("warnings", screen.warnings());
     summary.write(parameters.output_directory + "/summary.json", communicator);
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/checkpoint/checkpoint_parameters.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/forces/external_forces.h>
 #include <akmon/material/material.h>
@@ -33,6 +34,7 @@ namespace akmon
     std::vector<RigidPlane> planes;
     std::vector<Probe> probes;
     OutputParameters output;
+    CheckpointParameters checkpoint;
     std::string as_used; ///< every parameter, in the form of a prm file
 
     /**

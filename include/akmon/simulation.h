@@ -10,6 +10,7 @@
 #include <akmon/output/monitor.h>
 #include <akmon/output/screen.h>
 #include <akmon/output/stage_timer.h>
+#include <akmon/signal_watch.h>
 #include <akmon/time/fidcd.h>
 
 #include <chrono>
@@ -27,10 +28,22 @@ namespace akmon
      */
     Simulation(const Case &parameters, MPI_Comm communicator, const bool quiet = false);
 
-    /// Run to the end. Throws RunError, after the last state was written, when the run must not go
-    /// on.
+    /**
+     * Run to the end. Throws RunError, after the last state was written, when the run must not go
+     * on.
+     * @param checkpoint  to go on from, in the case's output directory; empty: from the beginning.
+     *                    Throws InputError before anything is written if it cannot be.
+     */
     void
-    run();
+    run(const std::string &checkpoint = "");
+
+    /// Show what looks like a mistake in the case (collective); run() does it too.
+    void
+    warn_of_oddities();
+
+    /// See akmon::state_hash().
+    std::uint64_t
+    state_hash() const;
 
     const NodalState &
     current_state() const
@@ -60,11 +73,21 @@ namespace akmon
     void
     start();
     void
+    restart(const std::string &checkpoint);
+    void
     step();
     void
-    stop();
+    stop(const ExitStatus status);
     void
-    choose_step();
+    agree_on_step();
+    SignalWatch::Request
+    wanted_checkpoint();
+    void
+    write_checkpoint_if_due();
+    void
+    write_checkpoint(const std::string &path, const bool for_looking_only);
+    void
+    leave_evidence();
     void
     initial_velocity();
     void
@@ -72,7 +95,15 @@ namespace akmon
     void
     show_progress();
     void
-    check_cells();
+    refuse_unstable_step() const;
+    [[noreturn]] void
+    throw_cell_fault() const;
+    void
+    keep_step_from_collapsing(double &frequency_squared);
+    void
+    count_eroded();
+    std::string
+    level_text() const;
 
     const Case parameters;
     const MPI_Comm communicator;
@@ -89,14 +120,19 @@ namespace akmon
     NodalVector velocity_0; ///< initial velocities; emptied after the start
 
     std::unique_ptr<Monitor> monitor; ///< from the start of run() on
-    std::chrono::steady_clock::time_point wall_start;
-    unsigned long n_cells = 0;
+    SignalWatch signals;
+    OutputTick checkpoint_tick;
+    SignalWatch::Request requested = SignalWatch::none; ///< in this step, the same on all ranks
+    std::chrono::steady_clock::time_point wall_start, last_checkpoint;
+    unsigned long n_cells = 0, first_step = 0;     ///< first_step: where this part of the run began
+    unsigned long n_eroded = 0, n_eroded_here = 0; ///< of all ranks, of this one
+    double initial_frequency_squared = 0.;         ///< largest omega^2 of all ranks at the start
 
     struct Stages
     {
       explicit Stages(StageTimer &timer);
       StageTimer::Stage predict, search, forces, time_step, free_increment, normal, friction,
-        correct, observe, output;
+        correct, observe, output, checkpoint;
     } stages;
   };
 } // namespace akmon

@@ -25,6 +25,7 @@ namespace akmon
           {
             report.max_penetration_relative = -pair.gap / pair.size;
             report.place                    = Point<3>(at_node(state.x, pair.slave));
+            report.deepest                  = pair.slave;
           }
         report.active_pairs += pair.normal_force > 0.;
         report.sticking_pairs += pair.normal_force > 0. && pair.sticks;

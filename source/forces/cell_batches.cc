@@ -30,6 +30,8 @@ namespace akmon
     owned.resize(std::size_t(n_batches) * n_lanes, 0.);
     state.resize(n_batches * batch_stride(), 0.);
     hourglass.resize(one_point ? std::size_t(n_batches) * 12 * n_lanes : 0, 0.);
+    eroded.resize(std::size_t(n_batches) * n_lanes, 0.);
+    has_eroded.resize(n_batches, 0);
     frequencies.resize(std::size_t(n_batches) * 2 * n_lanes, 0.);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
@@ -44,5 +46,22 @@ namespace akmon
             owned[begin + lane] = used && cell.owned ? 1. : 0.;
           }
       }
+  }
+
+
+  void
+  CellBatches::erode(const std::size_t cell)
+  {
+    const std::size_t batch = cell / n_lanes, lane = cell % n_lanes;
+    for (unsigned int i = 0; i < n_points * n_components; ++i)
+      state_at(batch)[i * n_lanes + lane] = 0.;
+    if (!hourglass.empty())
+      for (unsigned int i = 0; i < 12; ++i)
+        hourglass[(batch * 12 + i) * n_lanes + lane] = 0.;
+    frequencies[batch * 2 * n_lanes + lane]           = 0.;
+    frequencies[batch * 2 * n_lanes + n_lanes + lane] = 1.;
+    owned[cell]                                       = 0.;
+    eroded[cell]                                      = 1.;
+    has_eroded[batch]                                 = 1;
   }
 } // namespace akmon

@@ -3,6 +3,7 @@
 #include <akmon/time/critical_step.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace akmon
 {
@@ -12,6 +13,44 @@ namespace akmon
     // and only if the cell is about to govern the step; until then the bound on its growth does.
     constexpr double growth_tolerance = 1.035;
     constexpr double governing_part   = 0.99;
+
+
+    // Cells that were taken out are computed along, at rest in their initial shape and without
+    // stress: their forces, works and strains are zero.
+    void
+    rest_eroded(const NodalVector &reference,
+                const CellBatches &batches,
+                const unsigned int batch,
+                Lanes (&positions)[8][3],
+                Lanes (&increments)[8][3])
+    {
+      const auto eroded = Lanes::load_aligned(&batches.eroded[std::size_t(batch) * n_lanes]) >
+                          Lanes(0.);
+      Lanes initial[8][3];
+      gather(reference.begin(), batches.nodes(batch), initial);
+      for (unsigned int v = 0; v < 8; ++v)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            positions[v][d]  = select(eroded, initial[v][d], positions[v][d]);
+            increments[v][d] = select(eroded, Lanes(0.), increments[v][d]);
+          }
+    }
+
+
+    // Undo what cells that cannot be computed have done to sums and forces.
+    void
+    keep_valid(const Lanes::batch_bool_type &valid,
+               const CellPassSums<Lanes> &before,
+               CellPassSums<Lanes> &sums,
+               Lanes (&forces)[8][3])
+    {
+      sums.internal_work  = select(valid, sums.internal_work, before.internal_work);
+      sums.plastic_work   = select(valid, sums.plastic_work, before.plastic_work);
+      sums.hourglass_work = select(valid, sums.hourglass_work, before.hourglass_work);
+      for (auto &of_node : forces)
+        for (auto &component : of_node)
+          component = select(valid, component, Lanes(0.));
+    }
   } // namespace
 
 
@@ -30,8 +69,9 @@ namespace akmon
             for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
               if (omega_squared[lane] > frequency_squared)
                 {
-                  frequency_squared       = omega_squared[lane];
-                  initially_limiting_cell = batches.first_cell + std::size_t(batch) * n_lanes +
+                  frequency_squared         = omega_squared[lane];
+                  initial_frequency_squared = omega_squared[lane];
+                  initially_limiting_cell   = batches.first_cell + std::size_t(batch) * n_lanes +
                                             lane;
                 }
           }
@@ -119,7 +159,10 @@ namespace akmon
         Lanes positions[8][3], increments[8][3], forces[8][3];
         gather(x.begin(), batches.nodes(batch), positions);
         gather(dx.begin(), batches.nodes(batch), increments);
+        if (batches.has_eroded[batch])
+          rest_eroded(discretization.reference, batches, batch, positions, increments);
 
+        const CellPassSums<Lanes> before = sums;
         const Lanes owned   = Lanes::load_aligned(&batches.owned[std::size_t(batch) * n_lanes]);
         double *const state = batches.state_at(batch);
         CellStep<Lanes> cell;
@@ -136,19 +179,20 @@ namespace akmon
         else
           cell = update_stress_and_force<integration == CellIntegration::mean_dilatation>(
             law, positions, increments, owned, state, batches.state_at(next), sums, forces);
-        scatter_subtract(forces, batches.nodes(batch), batches.n_used_lanes[batch], force.begin());
 
         // A comparison with NaN is false: this finds inverted and non-finite cells.
         const auto valid = cell.smallest_jacobian > Lanes(0.);
-        if (!xsimd::all(valid) && !cell_fault.occurred())
-          for (unsigned int lane = 0; lane < n_lanes; ++lane)
-            if (!valid.get(lane))
-              {
-                report_fault(x, batches, batch, lane);
-                break;
-              }
+        if (!xsimd::all(valid))
+          {
+            remove_invalid(x, batches, batch, valid);
+            keep_valid(valid, before, sums, forces);
+          }
+        scatter_subtract(forces, batches.nodes(batch), batches.n_used_lanes[batch], force.begin());
 
-        const auto recalibrate = bound_frequency(cell.strain_squared, batches, batch, largest);
+        const auto recalibrate = bound_frequency(select(valid, cell.strain_squared, Lanes(0.)),
+                                                 batches,
+                                                 batch,
+                                                 largest);
         if (xsimd::any(recalibrate))
           to_calibrate.emplace_back(batch, recalibrate);
       }
@@ -188,17 +232,84 @@ namespace akmon
   }
 
 
+  // Cells of bodies that erode are taken out where they have turned inside out; nothing helps
+  // against nodes without a place.
+  void
+  InternalForces::remove_invalid(const NodalVector &x,
+                                 CellBatches &batches,
+                                 const unsigned int batch,
+                                 const Lanes::batch_bool_type &valid)
+  {
+    Lanes positions[8][3];
+    gather(x.begin(), batches.nodes(batch), positions);
+    Lanes sum(0.);
+    for (const auto &of_node : positions)
+      for (const auto &component : of_node)
+        sum += component;
+    for (unsigned int lane = 0; lane < n_lanes; ++lane)
+      if (!valid.get(lane))
+        {
+          const bool finite = std::isfinite(sum.get(lane));
+          if (finite && discretization.get_bodies()[batches.body].erodes)
+            erode(batches, std::size_t(batch) * n_lanes + lane);
+          else if (!cell_fault.occurred())
+            report_fault(x, batches, batch, lane, !finite);
+        }
+  }
+
+
+  void
+  InternalForces::erode(CellBatches &batches, const std::size_t cell)
+  {
+    n_eroded_cells += batches.owned[cell] != 0.;
+    batches.erode(cell);
+  }
+
+
+  std::size_t
+  InternalForces::limiting_cell_now() const
+  {
+    std::size_t limiting = 0;
+    double largest       = 0.;
+    for (const auto &batches : body_batches)
+      for (std::size_t cell = 0; cell < batches.n_cells; ++cell)
+        if (batches.frequency_bound(cell) > largest)
+          {
+            largest  = batches.frequency_bound(cell);
+            limiting = batches.first_cell + cell;
+          }
+    return limiting;
+  }
+
+
+  void
+  InternalForces::erode_beyond(const double frequency_squared_limit)
+  {
+    frequency_squared = 0.;
+    for (auto &batches : body_batches)
+      for (std::size_t cell = 0; cell < batches.owned.size(); ++cell) // lanes that fill up, too
+        {
+          if (discretization.get_bodies()[batches.body].erodes &&
+              batches.frequency_bound(cell) > frequency_squared_limit)
+            erode(batches, cell);
+          frequency_squared = std::max(frequency_squared, batches.frequency_bound(cell));
+        }
+  }
+
+
   void
   InternalForces::report_fault(const NodalVector &x,
                                const CellBatches &batches,
                                const unsigned int batch,
-                               const unsigned int lane)
+                               const unsigned int lane,
+                               const bool not_a_number)
   {
     const std::size_t index = batches.first_cell + std::size_t(batch) * n_lanes +
                               (lane < batches.n_used_lanes[batch] ? lane : 0);
-    const auto &cell = discretization.cells[index];
-    cell_fault.cell  = cell.id;
-    cell_fault.body  = discretization.get_bodies()[cell.body].name;
-    cell_fault.place = dealii::Point<3>(at_node(x, cell.nodes[0]));
+    const auto &cell        = discretization.cells[index];
+    cell_fault.cell         = cell.id;
+    cell_fault.body         = discretization.get_bodies()[cell.body].name;
+    cell_fault.place        = dealii::Point<3>(at_node(x, cell.nodes[0]));
+    cell_fault.not_a_number = not_a_number;
   }
 } // namespace akmon

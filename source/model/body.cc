@@ -28,6 +28,13 @@ namespace akmon
                       "0.02",
                       dealii::Patterns::Double(0., 0.15),
                       "Coefficient kappa of the hourglass control (dimensionless)");
+    prm.declare_entry(
+      "Failing cells",
+      "stop",
+      dealii::Patterns::Selection("stop|erode"),
+      "A cell that turns inside out, or makes the automatic step collapse, stops the "
+      "run, or is eroded: it carries no stress from then on, its mass stays with its "
+      "nodes");
     prm.declare_entry("Refinement",
                       "0",
                       dealii::Patterns::Integer(0, 10),
@@ -62,6 +69,7 @@ namespace akmon
     hourglass_control     = prm.get("Hourglass control") == "viscous" ? HourglassControl::viscous :
                                                                         HourglassControl::stiffness;
     hourglass_coefficient = prm.get_double("Hourglass coefficient");
+    erodes                = prm.get("Failing cells") == "erode";
     refinement            = prm.get_integer("Refinement");
     position              = get_vector(prm, section, "Position");
     velocity              = get_vector(prm, section, "Velocity");

@@ -1,6 +1,7 @@
 #include <akmon/forces/trilinear.h>
 #include <akmon/model/body_mesh.h>
 #include <akmon/model/discretization.h>
+#include <akmon/model/mesh_size.h>
 #include <akmon/parameters.h>
 
 #include <deal.II/dofs/dof_renumbering.h>
@@ -93,6 +94,7 @@ namespace akmon
                            "there is no material of this name in Materials/Names");
         body_material.push_back(found - materials.begin());
       }
+    refuse_too_large_meshes(bodies, communicator);
     build_triangulation();
     number_nodes();
     collect_cells();

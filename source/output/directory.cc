@@ -1,3 +1,4 @@
+#include <akmon/exit_status.h>
 #include <akmon/output/directory.h>
 #include <akmon/parameters.h>
 
@@ -5,6 +6,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <regex>
 #include <stdexcept>
 #include <vector>
 
@@ -90,6 +92,32 @@ namespace akmon
 
 
   void
+  remove_results_behind(const std::string &path,
+                        const unsigned long step,
+                        const std::size_t n_field_files,
+                        const MPI_Comm comm)
+  {
+    run_on_root(comm, [&]() {
+      std::vector<fs::path> stale;
+      for (const auto &entry : fs::directory_iterator(path))
+        {
+          const std::string name = entry.path().filename().string();
+          std::smatch match;
+          if (std::regex_match(name, match, std::regex("checkpoint_(\\d{1,18})\\.h5")) ?
+                std::stoul(match[1]) > step :
+              std::regex_match(name, match, std::regex("fields_(\\d{1,18})\\.vtu")) ?
+                std::stoul(match[1]) >= n_field_files :
+                is_own_result(name) &&
+                  (ends_with(name, temporary_suffix) || starts_with(name, "checkpoint")))
+            stale.push_back(entry.path());
+        }
+      for (const auto &file : stale)
+        fs::remove(file);
+    });
+  }
+
+
+  void
   run_on_root(const MPI_Comm comm, const std::function<void()> &task)
   {
     std::string failure;
@@ -104,7 +132,7 @@ namespace akmon
         }
     failure = dealii::Utilities::MPI::broadcast(comm, failure, 0);
     if (!failure.empty())
-      throw std::runtime_error(failure);
+      throw RunError(ExitStatus::output_failed, failure);
   }
 
 

@@ -1,8 +1,9 @@
+#include <akmon/exit_status.h>
+#include <akmon/output/directory.h>
 #include <akmon/output/fields.h>
 
 #include <deal.II/fe/mapping_q1.h>
 #include <deal.II/fe/mapping_q1_eulerian.h>
-#include <deal.II/numerics/data_out.h>
 
 #include <cmath>
 #include <cstdio>
@@ -42,6 +43,15 @@ namespace akmon
     private:
       const std::vector<Symmetric3<double>> &stresses;
     };
+
+
+    std::string
+    file_name(const std::size_t number)
+    {
+      char name[32];
+      std::snprintf(name, sizeof(name), "fields_%05zu.vtu", number);
+      return name;
+    }
 
 
     const std::vector<DataComponentInterpretation::DataComponentInterpretation> as_vector(
@@ -99,7 +109,7 @@ namespace akmon
 
     const unsigned int n = triangulation.n_active_cells();
     std::vector<Symmetric3<double>> stresses(n, {{0., 0., 0., 0., 0., 0.}});
-    Vector<float> von_mises(n), plastic_strain(n), body(n), rank(n);
+    Vector<float> von_mises(n), plastic_strain(n), body(n), rank(n), eroded(n);
     for (const auto &batches : internal_forces.batches())
       for (std::size_t c = 0; c < batches.n_cells; ++c)
         {
@@ -110,6 +120,7 @@ namespace akmon
           von_mises[i]       = std::sqrt(equivalent_stress_squared(average.stress));
           plastic_strain[i]  = average.plastic_strain;
           body[i]            = relevant.body;
+          eroded[i]          = batches.is_eroded(c) ? 1. : 0.;
           rank[i]            = relevant.cell->subdomain_id();
         }
 
@@ -141,15 +152,54 @@ namespace akmon
     data_out.add_data_vector(plastic_strain, "plastic_strain", DataOut<3>::type_cell_data);
     data_out.add_data_vector(body, "body", DataOut<3>::type_cell_data);
     data_out.add_data_vector(rank, "rank", DataOut<3>::type_cell_data);
+    data_out.add_data_vector(eroded, "eroded", DataOut<3>::type_cell_data);
     if (deformed)
       data_out.build_patches(MappingQ1Eulerian<3, NodalVector>(dof_handler, displacement), 1);
     else
       data_out.build_patches(MappingQ1<3>(), 1);
 
-    char name[32];
-    std::snprintf(name, sizeof(name), "fields_%05u.vtu", n_written++);
-    data_out.write_vtu_in_parallel(directory + "/" + name, discretization.communicator());
+    const std::string name = file_name(series.size());
+    write_file(data_out, name);
     series.add(state.time, name);
+  }
+
+
+  // The operating system knows why a file cannot be created; MPI tells only that it could not
+  // write.
+  void
+  Fields::write_file(const DataOut<3> &data_out, const std::string &name) const
+  {
+    const std::string path = directory + "/" + name;
+    run_on_root(discretization.communicator(), [&]() { replace_file(path, ""); });
+    std::string failure;
+    try
+      {
+        data_out.write_vtu_in_parallel(path, discretization.communicator());
+      }
+    catch (const ExceptionBase &)
+      {
+        failure = "cannot write '" + path + "'; is the disk full?";
+      }
+    for (const auto &of_rank : Utilities::MPI::all_gather(discretization.communicator(), failure))
+      if (!of_rank.empty())
+        throw RunError(ExitStatus::output_failed, of_rank);
+  }
+
+
+  void
+  Fields::save(CheckpointWriter &checkpoint) const
+  {
+    checkpoint.numbers("field_times", series.times());
+  }
+
+
+  void
+  Fields::restore(const CheckpointReader &checkpoint)
+  {
+    std::vector<std::pair<double, std::string>> earlier;
+    for (const double time : checkpoint.numbers("field_times"))
+      earlier.emplace_back(time, file_name(earlier.size()));
+    series.continue_from(earlier);
   }
 
 

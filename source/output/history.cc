@@ -1,11 +1,15 @@
 #include <akmon/output/directory.h>
 #include <akmon/output/history.h>
+#include <akmon/parameters.h>
 
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace akmon
 {
@@ -63,16 +67,75 @@ namespace akmon
     run_on_root(comm, [&]() {
       if (!header_written)
         {
-          std::string header;
-          for (const auto &name : columns)
-            append(header, name);
           file.reset(std::fopen(path.c_str(), "wb"));
-          write_line(header);
+          write_line(header());
         }
       std::string row;
       for (const double value : values)
         append(row, shortest_text(value));
       write_line(row);
+    });
+    header_written = true;
+  }
+
+
+  std::string
+  History::header() const
+  {
+    std::string line;
+    for (const auto &name : columns)
+      append(line, name);
+    return line;
+  }
+
+
+  std::uint64_t
+  History::secure()
+  {
+    std::uint64_t size = 0;
+    run_on_root(comm, [&]() {
+      if (!file)
+        return;
+      if (fsync(fileno(file.get())) != 0)
+        throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
+      size = std::ftell(file.get());
+    });
+    return size;
+  }
+
+
+  void
+  History::check_beginning(const std::uint64_t size) const
+  {
+    try
+      {
+        run_on_root(comm, [&]() {
+          std::ifstream in(path);
+          std::string line;
+          if (size > 0 && (!std::getline(in, line) || std::filesystem::file_size(path) < size))
+            throw std::runtime_error(
+              "'" + path + "' lacks rows that were there when the checkpoint was written");
+          if (size > 0 && line != header())
+            throw std::runtime_error("'" + path + "' has other columns than the case now");
+        });
+      }
+    catch (const std::runtime_error &error)
+      {
+        throw InputError(error.what());
+      }
+  }
+
+
+  void
+  History::continue_behind(const std::uint64_t size)
+  {
+    if (size == 0)
+      return; // no row yet
+    run_on_root(comm, [&]() {
+      std::filesystem::resize_file(path, size);
+      file.reset(std::fopen(path.c_str(), "ab"));
+      if (!file || std::fseek(file.get(), 0, SEEK_END) != 0)
+        throw std::runtime_error("cannot write '" + path + "': " + std::strerror(errno));
     });
     header_written = true;
   }

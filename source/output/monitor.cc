@@ -65,7 +65,11 @@ namespace akmon
   {
     level_written = false;
     account_work();
-    report               = watched.contact.report(watched.state);
+    report = watched.contact.report(watched.state);
+    if (report.max_penetration_relative > deepest.size)
+      deepest = {report.max_penetration_relative,
+                 report.place,
+                 watched.discretization.body_of_node[report.deepest]};
     penetration          = std::max(penetration, report.max_penetration);
     penetration_relative = std::max(penetration_relative, report.max_penetration_relative);
 
@@ -73,7 +77,7 @@ namespace akmon
     row_due         = history_tick.due(watched.state.time, step) || last || step == 0;
     if (row_due || step % levels_between_energies == 0)
       sum_energies();
-    row_due = row_due || !energy_fault().empty();
+    row_due = row_due || energy_fault() || hourglass_fault();
   }
 
 
@@ -85,6 +89,7 @@ namespace akmon
     const bool fields_due = field_tick.due(watched.state.time, watched.state.step);
     if (fields_due || last || watched.state.step == 0)
       write_fields();
+    check_contact();
     check_energy();
   }
 
@@ -217,33 +222,5 @@ namespace akmon
     append(sums);
     append(probes.values(watched.state));
     history.write_row(row);
-  }
-
-
-  // What is wrong with the energies, empty if nothing; written so that not a number is beyond any
-  // bound.
-  std::string
-  Monitor::energy_fault() const
-  {
-    const auto &output = parameters.output;
-    if (!(std::abs(worst.energy_error) <= output.energy_error_bound))
-      return "energy error " + shortest_text(worst.energy_error) + " is beyond the bound " +
-             shortest_text(output.energy_error_bound) + " ([Output] Energy error bound)";
-    if (!(std::abs(balance.hourglass) <= output.hourglass_energy_bound * largest_energy))
-      return "hourglass energy " + shortest_text(balance.hourglass) + " is beyond " +
-             shortest_text(output.hourglass_energy_bound) +
-             " of the largest energy so far ([Output] Hourglass energy bound); refine the mesh or "
-             "integrate fully";
-    return "";
-  }
-
-
-  void
-  Monitor::check_energy() const
-  {
-    const std::string fault = energy_fault();
-    if (!fault.empty())
-      throw RunError("step " + std::to_string(watched.state.step) + ", time " +
-                     shortest_text(watched.state.time) + ": " + fault);
   }
 } // namespace akmon

@@ -40,6 +40,12 @@ namespace akmon
       Double(0.),
       "The run stops when the work against the hourglass control of one-point cells, "
       "relative to the largest energy so far, is beyond this (dimensionless)");
+    prm.declare_entry(
+      "Penetration bound",
+      "0.25",
+      Double(0.),
+      "The run stops when a penetration over the cell size is beyond this at a history "
+      "row: contact was lost (dimensionless)");
   }
 
 
@@ -53,6 +59,7 @@ namespace akmon
     deformed               = prm.get("Configuration") == "deformed";
     energy_error_bound     = prm.get_double("Energy error bound");
     hourglass_energy_bound = prm.get_double("Hourglass energy bound");
+    penetration_bound      = prm.get_double("Penetration bound");
   }
 
 

@@ -14,6 +14,16 @@ namespace akmon
   }
 
 
+  std::vector<double>
+  PvdSeries::times() const
+  {
+    std::vector<double> result;
+    for (const auto &[time, file] : times_and_files)
+      result.push_back(time);
+    return result;
+  }
+
+
   void
   PvdSeries::add(const double time, const std::string &vtu_file)
   {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -197,6 +198,15 @@ namespace akmon
   }
 
 
+  void
+  Screen::recall(const std::string &earlier)
+  {
+    std::istringstream lines(earlier);
+    for (std::string line; std::getline(lines, line);)
+      given_warnings.push_back(line);
+  }
+
+
   const std::vector<std::string> &
   Screen::warnings() const
   {
@@ -217,13 +227,14 @@ namespace akmon
       return "  " + name + std::string(width - name.size(), ' ');
     };
 
-    out << '\n' << padded("stage") << "     seconds   percent       calls\n";
+    out << '\n' << padded("stage") << "     seconds   percent       calls   slowest/mean\n";
     for (const auto &stage : stages)
       out << padded(stage.name)
-          << format("  %10.3f  %8.1f  %10lu\n",
+          << format("  %10.3f  %8.1f  %10lu  %13.2f\n",
                     stage.seconds,
                     total_seconds > 0 ? 100. * stage.seconds / total_seconds : 0.,
-                    stage.calls);
+                    stage.calls,
+                    stage.imbalance);
     out << padded("total") << format("  %10.3f  %8.1f", total_seconds, 100.) << std::endl;
   }
 

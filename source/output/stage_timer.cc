@@ -42,7 +42,10 @@ namespace akmon
         calls.push_back(record.calls);
         first_use.push_back(record.first_use == 0 ? unused : record.first_use);
       }
+    std::vector<double> sums(seconds.size());
+    dealii::Utilities::MPI::sum(seconds, comm, sums);
     dealii::Utilities::MPI::max(seconds, comm, seconds);
+    const double n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
     dealii::Utilities::MPI::max(calls, comm, calls);
     dealii::Utilities::MPI::min(first_use, comm, first_use);
 
@@ -57,7 +60,10 @@ namespace akmon
 
     std::vector<Total> result;
     for (const auto i : order)
-      result.push_back({records[i].name, seconds[i], calls[i]});
+      result.push_back({records[i].name,
+                        seconds[i],
+                        calls[i],
+                        sums[i] > 0. ? n_ranks * seconds[i] / sums[i] : 1.});
     return result;
   }
 } // namespace akmon

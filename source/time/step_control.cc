@@ -29,6 +29,15 @@ namespace akmon
                       "0.9",
                       dealii::Patterns::Double(0., 1.),
                       "Automatic step over critical step (dimensionless)");
+    prm.declare_entry("Smallest step",
+                      "1e-3",
+                      dealii::Patterns::Double(0., 1.),
+                      "The run stops, or cells are eroded, when the critical step falls below this "
+                      "part of the first one (dimensionless)");
+    prm.declare_entry("Allow unstable step",
+                      "false",
+                      dealii::Patterns::Bool(),
+                      "Accept a fixed step above the critical one");
   }
 
 
@@ -37,6 +46,8 @@ namespace akmon
   {
     end           = prm.get_double("End");
     safety_factor = prm.get_double("Safety factor");
+    smallest      = prm.get_double("Smallest step");
+    unstable      = prm.get_bool("Allow unstable step");
     if (!(end > 0.))
       throw InputError("Time", "End", prm.get("End"), "allowed are positive numbers");
     if (!(safety_factor > 0.))

@@ -147,9 +147,9 @@ namespace
                            "  bodies     2\n"
                            "  time step  1e-7\n"
                            "\n"
-                           "  stage              seconds   percent       calls\n"
-                           "  predict              1.500      75.0          10\n"
-                           "  contact.search       0.500      25.0          20\n"
+                           "  stage              seconds   percent       calls   slowest/mean\n"
+                           "  predict              1.500      75.0          10           1.00\n"
+                           "  contact.search       0.500      25.0          20           1.00\n"
                            "  total                2.000     100.0\n");
   }
 

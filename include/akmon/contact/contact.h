@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/checkpoint/checkpoint.h>
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/coupled_solver.h>
@@ -20,7 +21,8 @@ namespace akmon
     double max_penetration          = 0.; ///< length
     double max_penetration_relative = 0.; ///< over the size of the cell faces at the slave
     dealii::Point<3> place;               ///< of the largest relative penetration
-    unsigned int active_pairs   = 0;
+    unsigned int deepest      = dealii::numbers::invalid_unsigned_int; ///< its slave, local number
+    unsigned int active_pairs = 0;
     unsigned int sticking_pairs = 0;
     unsigned int iterations     = 0;          ///< of the coupled solver, the same on all ranks
     std::vector<dealii::Tensor<1, 3>> forces; ///< per interface, on the surfaces named as slaves
@@ -103,6 +105,21 @@ namespace akmon
     {
       return pairs;
     }
+
+    /// What the next step takes over from this one: the forces of the pairs (collective).
+    void
+    save(CheckpointWriter &checkpoint) const;
+
+    /// Take it back, for the owned slaves (collective).
+    void
+    restore(const CheckpointReader &checkpoint);
+
+    /**
+     * Build everything anew in the next search that is kept between steps to save time. After a
+     * checkpoint this makes a run go on as one that is restarted from it.
+     */
+    void
+    forget_shortcuts();
 
     /// Relevant boundary faces that take part in contact.
     std::vector<BoundaryFace>

@@ -48,6 +48,14 @@ namespace akmon
     const ContactNodes::Field &
     increments();
 
+    /// Keep nothing that saves time from earlier steps.
+    void
+    start_afresh()
+    {
+      preconditioner.start_afresh();
+      iterations_when_new = 0;
+    }
+
     /// Pairs that may close in this step.
     const std::vector<ContactPair *> &
     participants() const

@@ -53,6 +53,25 @@ namespace akmon
       return &state[batch * batch_stride()];
     }
 
+    /// Bound of a cell's omega^2; 1/time^2.
+    double
+    frequency_bound(const std::size_t cell) const
+    {
+      const std::size_t first = cell / n_lanes * 2 * n_lanes + cell % n_lanes;
+      return frequencies[first] * frequencies[first + n_lanes];
+    }
+
+    /// Whether a cell of the body was taken out.
+    bool
+    is_eroded(const std::size_t cell) const
+    {
+      return eroded[cell] != 0.;
+    }
+
+    /// Take a cell out: it has no stress and no frequency any more, and no part in sums.
+    void
+    erode(const std::size_t cell);
+
     std::size_t
     batch_stride() const
     {
@@ -69,6 +88,8 @@ namespace akmon
     LaneArray owned;                        ///< [batch][lane], 1 for cells this rank owns, else 0
     LaneArray state;
     LaneArray hourglass; ///< forces Q [batch][pattern][component][lane] of one-point cells; force
+    std::vector<std::uint8_t> has_eroded; ///< per batch
+    LaneArray eroded; ///< [batch][lane], 1 for cells that were taken out, else 0
     LaneArray
       frequencies; ///< [batch][2][lane]: omega^2 as last computed, bound of its growth since
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/checkpoint/checkpoint.h>
 #include <akmon/forces/cell_batches.h>
 
 #include <limits>
@@ -14,7 +15,8 @@ namespace akmon
     dealii::types::global_cell_index
       cell = std::numeric_limits<dealii::types::global_cell_index>::max();
     std::string body;
-    dealii::Point<3> place; ///< a corner of the cell, length
+    dealii::Point<3> place;    ///< a corner of the cell, length
+    bool not_a_number = false; ///< a node's place is none; else the cell is inverted
 
     bool
     occurred() const
@@ -54,12 +56,37 @@ namespace akmon
       return frequency_squared;
     }
 
+    /// The same in the initial configuration.
+    double
+    largest_initial_frequency_squared() const
+    {
+      return initial_frequency_squared;
+    }
+
     /// The omega_max^2 of all ranks that sets the step: cells far below it need no tight bound;
     /// 1/time^2.
     void
     govern(const double largest_of_all_ranks)
     {
       governing_frequency_squared = largest_of_all_ranks;
+    }
+
+    /// The cell (index in Discretization::cells) that limits this rank's time step now.
+    std::size_t
+    limiting_cell_now() const;
+
+    /**
+     * Take out the cells of bodies that erode whose omega^2 is beyond a limit, and find the largest
+     * of the others anew. The same cells on every rank that computes them.
+     */
+    void
+    erode_beyond(const double frequency_squared_limit);
+
+    /// Cells this rank owns that were taken out so far.
+    unsigned long
+    n_eroded() const
+    {
+      return n_eroded_cells;
     }
 
     /// The cell (index in Discretization::cells) that limits the time step, in the initial
@@ -105,6 +132,15 @@ namespace akmon
       return body_batches;
     }
 
+    /// Stresses, internal variables and frequencies of all cells in global order, and the works
+    /// (collective).
+    void
+    save(CheckpointWriter &checkpoint) const;
+
+    /// Take them back, those of ghost cells too.
+    void
+    restore(const CheckpointReader &checkpoint);
+
   private:
     void
     calibrate(const NodalVector &x,
@@ -117,10 +153,18 @@ namespace akmon
                     const unsigned int batch,
                     Lanes &largest) const;
     void
+    remove_invalid(const NodalVector &x,
+                   CellBatches &batches,
+                   const unsigned int batch,
+                   const Lanes::batch_bool_type &valid);
+    void
+    erode(CellBatches &batches, const std::size_t cell);
+    void
     report_fault(const NodalVector &x,
                  const CellBatches &batches,
                  unsigned int batch,
-                 unsigned int lane);
+                 unsigned int lane,
+                 const bool not_a_number);
 
     template <CellIntegration integration, typename Law>
     void
@@ -136,8 +180,10 @@ namespace akmon
     std::vector<std::pair<unsigned int, Lanes::batch_bool_type>>
       to_calibrate; ///< batches and their cells whose bound is too loose, of the body in work
     double frequency_squared            = 0.;
+    double initial_frequency_squared    = 0.;
     double governing_frequency_squared  = 0.;
     std::size_t initially_limiting_cell = 0;
+    unsigned long n_eroded_cells        = 0;
     double work                         = 0.;
     double dissipated                   = 0.;
     double hourglass                    = 0.;

@@ -40,6 +40,7 @@ namespace akmon
     CellIntegration integration        = CellIntegration::mean_dilatation;
     HourglassControl hourglass_control = HourglassControl::stiffness;
     double hourglass_coefficient       = 0.02; ///< kappa, dimensionless
+    bool erodes = false; ///< cells that fail are taken out instead of ending the run
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -24,6 +24,13 @@ namespace akmon
     void
     parse(dealii::ParameterHandler &prm, const std::string &section);
 
+    /// Not known before the file is read, which has them all.
+    double
+    n_cells() const
+    {
+      return 0.;
+    }
+
     /**
      * Read the mesh. Throws InputError, naming `section`, if the file is absent, unreadable, not of
      * its format, empty, holds other cells than hexahedra, or cells that are turned inside out.

@@ -29,6 +29,13 @@ namespace akmon
     declare(dealii::ParameterHandler &prm);
     void
     parse(dealii::ParameterHandler &prm, const std::string &section);
+    /// Number of cells, before any is made; of a full cylinder where this is a sector.
+    double
+    n_cells() const
+    {
+      return double(cells[0]) * cells[1] * cells[2];
+    }
+
     BodyMesh
     make(const std::string &section) const;
   };
@@ -58,6 +65,13 @@ namespace akmon
     declare(dealii::ParameterHandler &prm);
     void
     parse(dealii::ParameterHandler &prm, const std::string &section);
+    /// Number of cells, before any is made; of a full cylinder where this is a sector.
+    double
+    n_cells() const
+    {
+      return (double(cells_across) + 4. * cells_radial) * cells_across * cells_axial;
+    }
+
     BodyMesh
     make(const std::string &section) const;
   };
@@ -76,6 +90,13 @@ namespace akmon
     declare(dealii::ParameterHandler &prm);
     void
     parse(dealii::ParameterHandler &prm, const std::string &section);
+    /// Number of cells, before any is made; of a full cylinder where this is a sector.
+    double
+    n_cells() const
+    {
+      return double(cells_radial) * cells_around * cells_axial;
+    }
+
     BodyMesh
     make(const std::string &section) const;
   };
@@ -91,6 +112,13 @@ namespace akmon
     declare(dealii::ParameterHandler &prm);
     void
     parse(dealii::ParameterHandler &prm, const std::string &section);
+    /// Number of cells, before any is made; of a full cylinder where this is a sector.
+    double
+    n_cells() const
+    {
+      return (double(cells_across) + 6. * cells_radial) * cells_across * cells_across;
+    }
+
     BodyMesh
     make(const std::string &section) const;
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/checkpoint/checkpoint.h>
 #include <akmon/model/discretization.h>
 
 namespace akmon
@@ -28,5 +29,13 @@ namespace akmon
     NodalVector dx;      ///< increment that led here, x_n - x_{n-1}, ghosted; length
     NodalVector dx_next; ///< forward increment x_{n+1} - x_n; length
     NodalVector force;   ///< forces at n but for contact and reactions, owned entries only
+
+    /// All but the forces, which every step finds anew; nodes in global order (collective).
+    void
+    save(CheckpointWriter &checkpoint) const;
+
+    /// Take the owned nodes' values from a checkpoint and exchange the ghosts' (collective).
+    void
+    restore(const CheckpointReader &checkpoint);
   };
 } // namespace akmon

@@ -2,6 +2,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstddef>
 #include <functional>
 #include <string>
 
@@ -18,8 +19,19 @@ namespace akmon
   prepare_output_directory(const std::string &path, const MPI_Comm comm);
 
   /**
+   * Make the output directory ready for a run that goes on from a checkpoint of this step: remove
+   * what the run had written after it (checkpoints, field files from number @p n_field_files on)
+   * and incomplete files. Collective; all ranks throw RunError (output_failed).
+   */
+  void
+  remove_results_behind(const std::string &path,
+                        const unsigned long step,
+                        const std::size_t n_field_files,
+                        const MPI_Comm comm);
+
+  /**
    * Run a task on rank 0 only. Collective: when the task throws a std::exception, all ranks throw a
-   * std::runtime_error with its message, so that no rank is left waiting for the others.
+   * RunError (output_failed) with its message, so that no rank is left waiting for the others.
    */
   void
   run_on_root(const MPI_Comm comm, const std::function<void()> &task);

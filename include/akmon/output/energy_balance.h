@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 namespace akmon
 {
   /**
@@ -34,6 +36,20 @@ namespace akmon
       carried  = (before + 3. * after) / 8.;
     }
 
+    /// What the line consists of, for checkpoints.
+    std::array<double, 2>
+    parts() const
+    {
+      return {{at_level, carried}};
+    }
+
+    void
+    continue_from(const std::array<double, 2> &parts)
+    {
+      at_level = parts[0];
+      carried  = parts[1];
+    }
+
     /// Work up to the level; energy.
     double
     value() const
@@ -41,7 +57,6 @@ namespace akmon
       return at_level;
     }
 
-  private:
     double at_level = 0., carried = 0.;
   };
 

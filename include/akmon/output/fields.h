@@ -6,6 +6,8 @@
 #include <akmon/output/pvd.h>
 #include <akmon/time/fidcd.h>
 
+#include <deal.II/numerics/data_out.h>
+
 #include <string>
 #include <vector>
 
@@ -26,7 +28,23 @@ namespace akmon
     void
     write(const NodalState &state);
 
+    std::size_t
+    n_files() const
+    {
+      return series.size();
+    }
+
+    /// The times of the files written so far (collective).
+    void
+    save(CheckpointWriter &checkpoint) const;
+
+    /// Go on with the series as it was; its files keep their names.
+    void
+    restore(const CheckpointReader &checkpoint);
+
   private:
+    void
+    write_file(const dealii::DataOut<3> &data_out, const std::string &name) const;
     NodalVector
     nodal_velocity() const;
     /// Components: contact pressure (force/area), gap (length, NaN without partner), status (0
@@ -45,7 +63,6 @@ namespace akmon
     const Fidcd &integrator;
     const bool deformed;
     PvdSeries series;
-    unsigned int n_written = 0;
   };
 
 

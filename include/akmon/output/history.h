@@ -2,6 +2,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -39,7 +40,28 @@ namespace akmon
     void
     write_row(const std::vector<double> &values);
 
+    /**
+     * Bring all rows to the disk and return the size of the file in bytes, on rank 0 (collective);
+     * throws as write_row().
+     */
+    std::uint64_t
+    secure();
+
+    /**
+     * Check that the file starts with this run's header and has at least @p size bytes
+     * (collective). Throws InputError.
+     */
+    void
+    check_beginning(const std::uint64_t size) const;
+
+    /// Go on behind the first @p size bytes of an existing file and drop the rest (collective).
+    void
+    continue_behind(const std::uint64_t size);
+
   private:
+    std::string
+    header() const;
+
     struct CloseFile
     {
       void

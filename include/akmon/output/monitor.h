@@ -2,6 +2,7 @@
 
 #include <akmon/case.h>
 #include <akmon/contact/contact.h>
+#include <akmon/exit_status.h>
 #include <akmon/forces/external_forces.h>
 #include <akmon/forces/internal_forces.h>
 #include <akmon/model/essential_conditions.h>
@@ -11,19 +12,10 @@
 #include <akmon/output/probes.h>
 #include <akmon/time/fidcd.h>
 
-#include <stdexcept>
 #include <string>
 
 namespace akmon
 {
-  /// The run cannot go on or must not be trusted: exit status 1 with the step and place.
-  class RunError : public std::runtime_error
-  {
-  public:
-    using std::runtime_error::runtime_error;
-  };
-
-
   /// Watches the run: energies and momenta, penetration, probes, output ticks.
   class Monitor
   {
@@ -62,6 +54,25 @@ namespace akmon
     void
     write_fields();
 
+    /// Sums, extremes, ticks and how far the output files have come (collective).
+    void
+    save(CheckpointWriter &checkpoint);
+
+    /// Take them back. Throws InputError if the history there does not fit (collective).
+    void
+    restore(const CheckpointReader &checkpoint);
+
+    /// Make the output files what they were at the checkpoint (collective).
+    void
+    continue_output();
+
+    /// Field files written so far.
+    std::size_t
+    n_field_files() const
+    {
+      return fields.n_files();
+    }
+
     struct Extremes
     {
       double penetration = 0., penetration_relative = 0., energy_error = 0., momentum_error = 0.;
@@ -89,10 +100,27 @@ namespace akmon
     write_row();
     std::vector<double>
     momenta() const;
-    std::string
+    bool
     energy_fault() const;
+    bool
+    hourglass_fault() const;
+    void
+    check_contact() const;
     void
     check_energy() const;
+
+    // Where something is largest on this rank.
+    struct Extremum
+    {
+      double size = 0.;
+      dealii::Point<3> place;
+      unsigned int body = 0;
+    };
+
+    std::string
+    describe(const Extremum &of_rank) const;
+    std::string
+    level() const;
 
     const Case &parameters;
     Watched watched;
@@ -106,8 +134,10 @@ namespace akmon
     double initial_energy = 0., largest_energy = 0.;
     ContactReport report;
     double penetration = 0., penetration_relative = 0.; ///< since the last row
+    Extremum deepest;                                   ///< penetration over the cell size so far
     Extremes worst;
-    bool row_due       = false;
-    bool level_written = false; ///< whether the fields of this level are on disk
+    bool row_due               = false;
+    bool level_written         = false; ///< whether the fields of this level are on disk
+    std::uint64_t history_size = 0;     ///< at the checkpoint the run goes on from; bytes
   };
 } // namespace akmon

@@ -3,6 +3,7 @@
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/point.h>
 
+#include <cmath>
 #include <string>
 
 namespace akmon
@@ -19,13 +20,15 @@ namespace akmon
     {
       const bool by_steps = steps > 0 && step % steps == 0;
       const bool by_time  = interval > 0. && time >= next * (1. - 1e-9);
-      while (interval > 0. && next * (1. - 1e-9) <= time)
-        next += interval;
+      if (by_time)
+        {
+          const double following = interval * (std::floor(time / interval * (1. + 1e-9)) + 1.);
+          next                   = std::isfinite(following) ? following : time;
+        }
       return by_steps || by_time;
     }
 
-  private:
-    double next = 0.;
+    double next = 0.; ///< due by time from here on
   };
 
 
@@ -36,6 +39,7 @@ namespace akmon
     bool deformed                 = true; ///< meshes are written in the current configuration
     double energy_error_bound     = 0.05; ///< relative; the run stops beyond
     double hourglass_energy_bound = 0.1;  ///< relative; the run stops beyond
+    double penetration_bound      = 0.25; ///< over the cell size; the run stops beyond
 
     static void
     declare(dealii::ParameterHandler &prm);

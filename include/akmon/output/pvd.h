@@ -23,6 +23,23 @@ namespace akmon
     void
     add(const double time, const std::string &vtu_file);
 
+    std::size_t
+    size() const
+    {
+      return times_and_files.size();
+    }
+
+    /// Physical times of the files so far.
+    std::vector<double>
+    times() const;
+
+    /// Start from a series that an earlier part of the run has written: the next add() rewrites it.
+    void
+    continue_from(const std::vector<std::pair<double, std::string>> &earlier)
+    {
+      times_and_files = earlier;
+    }
+
   private:
     const std::string path;
     const MPI_Comm comm;

@@ -65,6 +65,10 @@ namespace akmon
     void
     warning(const std::string &text);
 
+    /// Take over the warnings (lines) of an earlier part of the run without showing them again.
+    void
+    recall(const std::string &earlier);
+
     /// The warnings given on this rank so far.
     const std::vector<std::string> &
     warnings() const;

@@ -54,6 +54,7 @@ namespace akmon
       std::string name;
       double seconds;
       unsigned long calls;
+      double imbalance = 1.; ///< seconds of the slowest rank over those of the mean one
     };
 
     StageTimer()                   = default;
@@ -70,8 +71,8 @@ namespace akmon
     totals() const;
 
     /**
-     * Like totals(), with the largest seconds and calls of any rank. Collective; needs the same
-     * stages registered in the same order on all ranks, though not all of them used.
+     * Like totals(), with the largest seconds and calls of any rank and the imbalance. Collective;
+     * needs the same stages registered in the same order on all ranks, though not all of them used.
      */
     std::vector<Total>
     totals(const MPI_Comm comm) const;

@@ -13,6 +13,8 @@ namespace akmon
     double end           = 0.; ///< time at which the run ends
     double fixed_step    = 0.; ///< zero: automatic
     double safety_factor = 0.9;
+    double smallest      = 1e-3;  ///< of the automatic step, over the critical one of the start
+    bool unstable        = false; ///< a fixed step above the critical one is accepted
 
     static void
     declare(dealii::ParameterHandler &prm);

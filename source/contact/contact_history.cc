@@ -1,0 +1,99 @@
+#include <akmon/contact/contact.h>
+
+#include <algorithm>
+#include <tuple>
+
+// What contact carries from step to step, in checkpoints.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // A pair's row in a checkpoint. Slaves go by their global node numbers, which are the same on
+    // any number of ranks.
+    constexpr std::size_t row_width = 10;
+
+
+    void
+    to_row(const ContactPair &pair, const types::global_dof_index slave, double *const row)
+    {
+      row[0] = pair.interface;
+      row[1] = pair.reversed ? 1. : 0.;
+      row[2] = slave;
+      row[3] = pair.normal_force;
+      for (unsigned int d = 0; d < 3; ++d)
+        row[4 + d] = pair.tangential_force[d];
+      row[7] = pair.sticks ? 1. : 0.;
+      row[8] = pair.slot;
+      row[9] = pair.curvature;
+    }
+
+
+    ContactPair
+    from_row(const double *const row)
+    {
+      ContactPair pair{};
+      pair.interface    = row[0];
+      pair.reversed     = row[1] != 0.;
+      pair.normal_force = row[3];
+      for (unsigned int d = 0; d < 3; ++d)
+        pair.tangential_force[d] = row[4 + d];
+      pair.sticks    = row[7] != 0.;
+      pair.slot      = row[8];
+      pair.curvature = row[9];
+      return pair;
+    }
+  } // namespace
+
+
+  void
+  Contact::save(CheckpointWriter &checkpoint) const
+  {
+    std::vector<const ContactPair *> carrying; // the others start from nothing
+    for (const auto &pair : pairs)
+      if (pair.normal_force != 0. || pair.curvature != 0.)
+        carrying.push_back(&pair);
+    checkpoint.table("contact_pairs",
+                     carrying.size(),
+                     row_width,
+                     [&](const std::size_t i, double *const row) {
+                       to_row(*carrying[i], discretization.global_node(carrying[i]->slave), row);
+                     });
+  }
+
+
+  void
+  Contact::restore(const CheckpointReader &checkpoint)
+  {
+    const auto &owned = discretization.partitioner->locally_owned_range();
+    pairs.clear();
+    checkpoint.rows("contact_pairs",
+                    0,
+                    checkpoint.size("contact_pairs").first,
+                    [&](const std::size_t, const double *const row) {
+                      const types::global_dof_index first_dof = 3 * row[2];
+                      if (!owned.is_element(first_dof))
+                        return;
+                      pairs.push_back(from_row(row));
+                      pairs.back().slave = discretization.partitioner->global_to_local(first_dof) /
+                                           3;
+                      pairs.back().slave_id = nodes.id_of_local(pairs.back().slave);
+                    });
+    std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
+      return std::tie(a.interface, a.reversed, a.slave_id, a.slot) <
+             std::tie(b.interface, b.reversed, b.slave_id, b.slot);
+    });
+    forget_shortcuts();
+  }
+
+
+  void
+  Contact::forget_shortcuts()
+  {
+    prepared  = false;
+    travelled = 0.;
+    coupled.start_afresh();
+  }
+} // namespace akmon

@@ -1,0 +1,137 @@
+#include <akmon/parameters.h>
+#include <akmon/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <array>
+#include <cmath>
+
+// What the ranks agree on in each step, and the faults that end a run or take cells out of it.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string
+    place_text(const Point<3> &place)
+    {
+      return "(" + shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
+             shortest_text(place[2]) + ")";
+    }
+  } // namespace
+
+
+  std::string
+  Simulation::level_text() const
+  {
+    return "step " + std::to_string(state.step) + ", time " + shortest_text(state.time) + ": ";
+  }
+
+
+  void
+  Simulation::refuse_unstable_step() const
+  {
+    const double critical = 2. / std::sqrt(initial_frequency_squared);
+    if (parameters.time.fixed_step > critical && !parameters.time.unstable)
+      throw InputError("Time",
+                       "Step",
+                       shortest_text(parameters.time.fixed_step),
+                       "it is above the critical step " + shortest_text(critical) +
+                         " of the smallest cell; allowed with 'Allow unstable step = true' only");
+  }
+
+
+  // In one exchange: the largest frequency, whether anyone wants a checkpoint, whether a cell is
+  // beyond computing or was taken out.
+  void
+  Simulation::agree_on_step()
+  {
+    const bool erodes            = internal_forces.n_eroded() != n_eroded_here;
+    std::array<double, 4> of_all = {{internal_forces.largest_frequency_squared(),
+                                     double(wanted_checkpoint()),
+                                     internal_forces.fault().occurred() ? 1. : 0.,
+                                     erodes ? 1. : 0.}};
+    Utilities::MPI::max(ArrayView<const double>(of_all.data(), of_all.size()),
+                        communicator,
+                        ArrayView<double>(of_all.data(), of_all.size()));
+    requested = static_cast<SignalWatch::Request>(int(of_all[1]));
+    if (of_all[2] > 0.)
+      throw_cell_fault();
+    if (of_all[3] > 0.)
+      count_eroded();
+    internal_forces.govern(of_all[0]);
+    keep_step_from_collapsing(of_all[0]);
+    state.dt_next = parameters.time.choose(state.time, of_all[0]);
+    if (!(state.dt_next > 0.))
+      throw RunError(ExitStatus::not_a_number, level_text() + "the time step is not a number");
+  }
+
+
+  void
+  Simulation::throw_cell_fault() const
+  {
+    const auto &fault = internal_forces.fault();
+    std::string message;
+    if (fault.occurred())
+      message = "cell " + std::to_string(fault.cell) + " of body '" + fault.body + "' " +
+                (fault.not_a_number ? "has a node whose place is not a number" : "is inverted") +
+                ", near " + place_text(fault.place);
+    const auto numbers  = Utilities::MPI::all_gather(communicator, fault.not_a_number);
+    const auto messages = Utilities::MPI::all_gather(communicator, message);
+    for (std::size_t rank = 0; rank < messages.size(); ++rank)
+      if (!messages[rank].empty())
+        throw RunError(numbers[rank] ? ExitStatus::not_a_number : ExitStatus::inverted_cell,
+                       level_text() + messages[rank]);
+    throw RunError(ExitStatus::unexpected_error, level_text() + "a cell fault without a cell");
+  }
+
+
+  // The critical step must not fall below its bound: cells that cause it are taken out where their
+  // body erodes, else the run stops.
+  void
+  Simulation::keep_step_from_collapsing(double &frequency_squared)
+  {
+    const double smallest = parameters.time.smallest;
+    const double limit    = initial_frequency_squared / (smallest * smallest);
+    if (!parameters.time.automatic() || !(frequency_squared > limit))
+      return;
+    internal_forces.erode_beyond(limit);
+    count_eroded();
+    const double of_rank = internal_forces.largest_frequency_squared();
+    frequency_squared    = Utilities::MPI::max(of_rank, communicator);
+    if (!(frequency_squared > limit))
+      return;
+    std::string message;
+    if (of_rank == frequency_squared)
+      {
+        const auto &cell = discretization.cells[internal_forces.limiting_cell_now()];
+        message          = "the critical step has fallen from " +
+                  shortest_text(2. / std::sqrt(initial_frequency_squared)) + " to " +
+                  shortest_text(2. / std::sqrt(frequency_squared)) +
+                  ", below [Time] Smallest step, by cell " + std::to_string(cell.id) +
+                  " of body '" + parameters.bodies[cell.body].name + "', near " +
+                  place_text(Point<3>(at_node(state.x, cell.nodes[0])));
+      }
+    for (const auto &of_rank : Utilities::MPI::all_gather(communicator, message))
+      if (!of_rank.empty())
+        throw RunError(ExitStatus::step_collapsed, level_text() + of_rank);
+  }
+
+
+  void
+  Simulation::count_eroded()
+  {
+    n_eroded_here              = internal_forces.n_eroded();
+    const unsigned long before = n_eroded;
+    n_eroded                   = Utilities::MPI::sum(n_eroded_here, communicator);
+    if (n_eroded == before)
+      return;
+    const std::string text = level_text() + std::to_string(n_eroded) + " cells eroded so far";
+    if (before == 0)
+      screen.warning(text);
+    else
+      screen.message(text);
+  }
+} // namespace akmon
