@@ -39,7 +39,10 @@ namespace akmon
               this->parameters.contacts,
               this->parameters.planes,
               conditions)
-    , integrator(discretization, state, parameters.body_force.damping)
+    , integrator(discretization,
+                 state,
+                 parameters.body_force.damping,
+                 parameters.body_force.damping_end)
     , n_cells(discretization.triangulation.n_global_active_cells())
     , stages(timer)
   {
@@ -91,9 +94,11 @@ namespace akmon
       {
         const unsigned int body_index = discretization.body_of_node[node];
         const Body &body              = discretization.get_bodies()[body_index];
-        const auto arm                = at_node(discretization.reference, node) -
-                         discretization.centre_of(body_index);
-        const auto v = body.velocity + cross_product_3d(body.spin, arm);
+        const Point<3> X(at_node(discretization.reference, node));
+        auto v = body.velocity +
+                 cross_product_3d(body.spin, X - discretization.centre_of(body_index));
+        if (!body.velocity_field.identically_zero())
+          v += body.velocity_field.vector(X, 0.);
         for (unsigned int d = 0; d < 3; ++d)
           velocity_0.local_element(3 * node + d) = v[d];
       }
