@@ -83,11 +83,11 @@ namespace akmon
   void
   FreeMotion::set_increments()
   {
-    const auto of_level = [&](const Tensor<1, 3> &momentum,
-                              const Tensor<1, 3> &turning,
-                              const double step) {
-      return Increment{(step / properties.mass) * momentum, step * (rotation_mobility() * turning)};
-    };
+    const auto of_level =
+      [&](const Tensor<1, 3> &momentum, const Tensor<1, 3> &turning, const double step) {
+        return RigidIncrement{(step / properties.mass) * momentum,
+                              step * (rotation_mobility() * turning)};
+      };
     // At the start L_0 is in the middle between both half steps.
     const double mirror = starting ? 1. : 0.;
     before              = of_level(momentum_before + mirror * (momentum_before - momentum_after),
@@ -138,6 +138,20 @@ namespace akmon
     const auto arm   = rotation() * properties.centre;
     const auto place = centre() + ahead.centre - turn.matrix() * arm;
     return {place, turn * frame.orientation};
+  }
+
+
+  // The momenta that forces add follow from the response: m dX/dt' and I dT/dt'.
+  Pose
+  FreeMotion::next_pose(const RigidIncrement &response) const
+  {
+    FreeMotion after_forces(*this);
+    const auto R = rotation();
+    after_forces.momentum_after += (properties.mass / dt_next) * response.centre;
+    after_forces.turning_after += held(R * inertia * transpose(R) * response.rotation / dt_next,
+                                       freedom.rotation);
+    after_forces.set_increments();
+    return after_forces.next_pose();
   }
 
 
@@ -209,15 +223,16 @@ namespace akmon
   {
     const auto R            = rotation();
     const auto I            = R * inertia * transpose(R);
-    const auto twice_energy = [&](const Increment &rate) {
+    const auto twice_energy = [&](const RigidIncrement &rate) {
       return properties.mass * (rate.centre * rate.centre) + rate.rotation * (I * rate.rotation);
     };
     if (starting)
       return 0.5 * twice_energy({velocity(), spin()});
     const double dt_bar = 0.5 * (dt + dt_next);
-    const auto mix = [](const double a, const Increment &u, const double b, const Increment &v) {
-      return Increment{a * u.centre + b * v.centre, a * u.rotation + b * v.rotation};
-    };
+    const auto mix =
+      [](const double a, const RigidIncrement &u, const double b, const RigidIncrement &v) {
+        return RigidIncrement{a * u.centre + b * v.centre, a * u.rotation + b * v.rotation};
+      };
     const auto mean   = mix(dt_next / dt / (dt + dt_next),
                           before,
                           dt / dt_next / (dt + dt_next),
@@ -228,7 +243,7 @@ namespace akmon
 
 
   double
-  FreeMotion::damping_work(const Increment &increment) const
+  FreeMotion::damping_work(const RigidIncrement &increment) const
   {
     if (damping == 0.)
       return 0.;

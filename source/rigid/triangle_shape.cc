@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace akmon
 {
@@ -93,10 +94,44 @@ namespace akmon
         entries.emplace_back(box, i);
       }
     tree->boxes = bgi::rtree<Tree::Entry, bgi::rstar<16>>(entries);
+    find_sharp_edges();
   }
 
 
   TriangleShape::~TriangleShape() = default;
+
+
+  // Convex edges whose triangles are turned against each other by more than a degree.
+  void
+  TriangleShape::find_sharp_edges()
+  {
+    constexpr double flat = 0.9998;
+    struct Side
+    {
+      Tensor<1, 3> normal;
+      unsigned int opposite;
+    };
+    std::map<std::array<unsigned int, 2>, Side> first_sides;
+    for (const auto &t : mesh.triangles)
+      {
+        const auto n = mesh.normal(t);
+        if (n.norm() <= 1e-14 * size * size)
+          continue;
+        for (unsigned int k = 0; k < 3; ++k)
+          {
+            const std::array<unsigned int, 2> edge = {
+              {std::min(t[k], t[(k + 1) % 3]), std::max(t[k], t[(k + 1) % 3])}};
+            const Side side{n / n.norm(), t[(k + 2) % 3]};
+            const auto known = first_sides.emplace(edge, side);
+            if (known.second)
+              continue;
+            const Side &other = known.first->second;
+            const auto across = mesh.vertices[side.opposite] - mesh.vertices[edge[0]];
+            if (other.normal * side.normal < flat && other.normal * across < 0.)
+              sharp_edges.push_back(edge);
+          }
+      }
+  }
 
 
   void

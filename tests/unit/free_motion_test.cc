@@ -163,7 +163,13 @@ namespace
     const auto free     = body.next();
     const double factor = 1. / (dt_next * 0.5 * (dt + dt_next)) + 0.5 * eta / dt_next;
     const Vector force({1., -2., 0.5}), moment({small, -small, 2. * small});
+    const Pose foreseen = body.next_pose(
+      {body.translation_mobility() * force / factor, body.rotation_mobility() * moment / factor});
     body.add(force, moment);
+    EXPECT_NEAR((body.next_pose().place - foreseen.place).norm(), 0., 1e-16);
+    EXPECT_NEAR((body.next_pose().orientation.matrix() - foreseen.orientation.matrix()).norm(),
+                0.,
+                1e-15);
     EXPECT_NEAR((body.next().centre - free.centre - body.translation_mobility() * force / factor)
                   .norm(),
                 0.,

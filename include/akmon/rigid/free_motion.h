@@ -7,6 +7,13 @@
 
 namespace akmon
 {
+  /// Increments of a body's centre (length) and of its rotation, Cayley's vector in space.
+  struct RigidIncrement
+  {
+    dealii::Tensor<1, 3> centre, rotation;
+  };
+
+
   /// What of its six ways to move a rigid body may use.
   struct Freedom
   {
@@ -93,17 +100,16 @@ namespace akmon
     Pose
     next_pose() const;
 
+    /// The same after forces that, to the first order, add @p response to the increments.
+    Pose
+    next_pose(const RigidIncrement &response) const;
+
     /// Centre of mass at the level; length.
     dealii::Tensor<1, 3>
     centre() const;
 
-    /// Forward increments of the centre (length) and of the rotation, its Cayley vector in space.
-    struct Increment
-    {
-      dealii::Tensor<1, 3> centre, rotation;
-    };
-
-    const Increment &
+    /// Forward increments.
+    const RigidIncrement &
     next() const
     {
       return ahead;
@@ -114,13 +120,13 @@ namespace akmon
      * centre, and dt I^{-1} L_{n -+ 1/2} at the orientation of the level. With them the change of
      * kinetic_energy() over equal steps is the work by the trapezoidal rule exactly, see Fidcd.
      */
-    const Increment &
+    const RigidIncrement &
     work_before() const
     {
       return before;
     }
 
-    const Increment &
+    const RigidIncrement &
     work_after() const
     {
       return after;
@@ -152,7 +158,7 @@ namespace akmon
 
     /// -eta (m v . increment of the centre + L . increment of the rotation); energy.
     double
-    damping_work(const Increment &increment) const;
+    damping_work(const RigidIncrement &increment) const;
 
   private:
     void
@@ -178,6 +184,6 @@ namespace akmon
     bool starting  = true;
     dealii::Tensor<1, 3> momentum_before, momentum_after; ///< linear, at n -+ 1/2
     dealii::Tensor<1, 3> turning_before, turning_after;   ///< angular about the centre, in space
-    Increment ahead, before, after;
+    RigidIncrement ahead, before, after;
   };
 } // namespace akmon

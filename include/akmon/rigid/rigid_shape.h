@@ -5,6 +5,7 @@
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
 
+#include <functional>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -17,6 +18,22 @@ namespace akmon
     double distance;             ///< negative inside; length
     dealii::Tensor<1, 3> normal; ///< outward unit normal, the gradient of the distance
   };
+
+
+  /**
+   * A point of a rigid shape's skeleton that may touch something: the surface is the skeleton blown
+   * up by a radius. Features are corners, edges and rims; their numbers stay while the shape moves.
+   */
+  struct TouchPoint
+  {
+    unsigned int feature;
+    dealii::Tensor<1, 3> x; ///< on the skeleton, in the shape's frame; length
+    double radius;          ///< length
+    SurfacePoint other;     ///< the other shape from x
+  };
+
+  /// Signed distance to another shape, in the first one's frame.
+  using DistanceField = std::function<SurfacePoint(const dealii::Tensor<1, 3> &)>;
 
 
   /**
@@ -48,6 +65,15 @@ namespace akmon
     nearby_from_inside(const dealii::Tensor<1, 3> &x,
                        const double within,
                        std::vector<SurfacePoint> &parts) const;
+
+    /**
+     * Append the points that come closest to another shape, feature by feature, if within a
+     * distance. Faces have none: what lies between faces is told by the features of the other.
+     */
+    virtual void
+    touch_points(const DistanceField &other,
+                 const double within,
+                 std::vector<TouchPoint> &points) const;
 
     /// Distance of the surface's furthest point from the frame's origin; length.
     virtual double
@@ -94,6 +120,11 @@ namespace akmon
       return R;
     }
 
+    void
+    touch_points(const DistanceField &other,
+                 const double within,
+                 std::vector<TouchPoint> &points) const override;
+
     MassProperties
     mass_properties(const double density) const override;
 
@@ -124,6 +155,11 @@ namespace akmon
     double
     radius() const override;
 
+    void
+    touch_points(const DistanceField &other,
+                 const double within,
+                 std::vector<TouchPoint> &points) const override;
+
     MassProperties
     mass_properties(const double density) const override;
 
@@ -153,6 +189,11 @@ namespace akmon
     double
     radius() const override;
 
+    void
+    touch_points(const DistanceField &other,
+                 const double within,
+                 std::vector<TouchPoint> &points) const override;
+
     MassProperties
     mass_properties(const double density) const override;
 
@@ -180,6 +221,11 @@ namespace akmon
     {
       return ring + tube;
     }
+
+    void
+    touch_points(const DistanceField &other,
+                 const double within,
+                 std::vector<TouchPoint> &points) const override;
 
     MassProperties
     mass_properties(const double density) const override;

@@ -34,6 +34,12 @@ namespace akmon
                        const double within,
                        std::vector<SurfacePoint> &parts) const override;
 
+    /// Vertices, and edges that are not flat.
+    void
+    touch_points(const DistanceField &other,
+                 const double within,
+                 std::vector<TouchPoint> &points) const override;
+
     double
     radius() const override
     {
@@ -63,7 +69,11 @@ namespace akmon
                 const double within,
                 std::vector<SurfacePoint> &parts) const;
 
+    void
+    find_sharp_edges();
+
     const TriangleMesh mesh;
+    std::vector<std::array<unsigned int, 2>> sharp_edges; ///< numbers of their vertices
     double furthest = 0., size = 0.;
     std::unique_ptr<Tree> tree;
   };
