@@ -1,4 +1,5 @@
 #include <akmon/contact/coupled_solver.h>
+#include <akmon/contact/projected_newton.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -9,12 +10,42 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
+    // for gaps (ProjectedNewton).
+    constexpr double compliance = 1e-7;
+
+    // The contact problem in the unknowns tau_i = t_i/s_i, as ProjectedNewton wants it.
+    struct ScaledProblem
+    {
+      void
+      apply(const Delassus::Vector &tau, Delassus::Vector &y)
+      {
+        delassus.apply(tau, y);
+      }
+
+      void
+      limits(const Delassus::Vector &tau, std::vector<double> &radius) const
+      {
+        for (std::size_t i = 0; i < tau.size(); ++i)
+          radius[i] = friction[i] * tau[i][0];
+      }
+
+      Delassus &delassus;
+      const std::vector<double> &friction;
+    };
+  } // namespace
+
+
   CoupledSolver::CoupledSolver(const ContactSolver &parameters,
                                const ContactNodes &nodes,
                                const Mobility &mobility)
     : parameters(parameters)
     , nodes(nodes)
+    , delassus_of_all(nodes, mobility)
     , delassus(nodes, mobility)
+    , preconditioner(mobility, compliance)
   {
   }
 
@@ -23,19 +54,20 @@ namespace akmon
   // what the fastest pair would do freely. All others only cost iterations.
   void
   CoupledSolver::choose_participants(std::vector<ContactPair> &pairs,
-                                     const ContactNodes::Field &dx_free)
+                                     const ContactNodes::Field &dx_free,
+                                     const std::vector<double> &friction_of_pairs)
   {
     double fastest = 0.;
     for (const auto &pair : pairs)
       fastest = std::max(fastest, std::abs(pair.normal * pair.relative(dx_free)));
     const double margin = 4. * Utilities::MPI::max(fastest, nodes.get_communicator());
-    participants.clear();
-    indices.clear();
-    for (unsigned int i = 0; i < pairs.size(); ++i)
+    all.clear();
+    friction_of_all.clear();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
       if (pairs[i].target_gap <= margin)
         {
-          participants.push_back(&pairs[i]);
-          indices.push_back(i);
+          all.push_back(&pairs[i]);
+          friction_of_all.push_back(friction_of_pairs[i]);
         }
       else
         {
@@ -46,161 +78,129 @@ namespace akmon
 
 
   void
-  CoupledSolver::solve_normal(std::vector<ContactPair> &pairs,
-                              const ContactNodes::Field &dx_free,
-                              const double effective_mass_factor)
+  CoupledSolver::begin_step(std::vector<ContactPair> &pairs,
+                            const ContactNodes::Field &dx_free,
+                            const std::vector<double> &friction_of_pairs,
+                            const double effective_mass_factor)
   {
-    n_iterations      = 0;
-    last_residual     = 0.;
-    tangential_forces = false;
-    choose_participants(pairs, dx_free);
-    if (Utilities::MPI::max((unsigned int)participants.size(), nodes.get_communicator()) == 0)
+    n_iterations  = 0;
+    last_residual = 0.;
+    all_converged = true;
+    choose_participants(pairs, dx_free, friction_of_pairs);
+    delassus_of_all.reinit(all, effective_mass_factor);
+    isolated = delassus_of_all.isolated_pairs();
+    coupled.clear();
+    friction.clear();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!isolated[i])
+        {
+          coupled.push_back(all[i]);
+          friction.push_back(friction_of_all[i]);
+        }
+    const auto any = [&](const bool here) {
+      return Utilities::MPI::max(int(here), nodes.get_communicator()) > 0;
+    };
+    couples_somewhere  = any(!coupled.empty());
+    friction_somewhere = any(std::any_of(friction_of_all.begin(),
+                                         friction_of_all.end(),
+                                         [](const double mu) { return mu > 0.; }));
+    if (!couples_somewhere)
       return;
-    delassus.reinit(participants, effective_mass_factor);
-    norm     = delassus.norm_bound();
-    isolated = delassus.isolated_pairs();
-    weights.resize(participants.size());
-    for (std::size_t i = 0; i < participants.size(); ++i)
-      weights[i] = delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * participants[i]->size) :
-                                              0.;
-    complementarity(dx_free);
+    delassus.reinit(coupled, effective_mass_factor);
+    preconditioner.set_pairs(coupled, delassus, effective_mass_factor);
+    norm = delassus.norm_bound();
+    weights.resize(coupled.size());
+    for (std::size_t i = 0; i < coupled.size(); ++i)
+      weights[i] = delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * coupled[i]->size) : 0.;
+  }
+
+
+  void
+  CoupledSolver::solve(const ContactNodes::Field &dx_free)
+  {
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (isolated[i])
+        solve_alone(*all[i], dx_free, delassus_of_all.scale()[i], friction_of_all[i]);
+    if (couples_somewhere)
+      solve_together(dx_free);
+  }
+
+
+  // A pair that shares no node with another has the closed solution (80)(82), which is exact.
+  void
+  CoupledSolver::solve_alone(ContactPair &pair,
+                             const ContactNodes::Field &dx_free,
+                             const double s,
+                             const double mu) const
+  {
+    const auto moved      = pair.relative(dx_free);
+    pair.normal_force     = std::max(0., -s * s * (pair.normal * moved + pair.target_gap));
+    const auto result     = Coulomb::tangential_force(-s * s * pair.tangential_part(moved),
+                                                  mu * pair.normal_force);
+    pair.tangential_force = result.force;
+    pair.sticks           = result.sticks;
   }
 
 
   // Gaps are to be exact relative to the cell, forces relative to themselves: what remains of a
-  // violation over the violation without contact forces is the relative error of the forces.
+  // violation over the violation without contact forces is the relative error of the forces. Gaps
+  // are not known better than to rounding, though.
   double
   CoupledSolver::tolerance_for(const double violation) const
   {
-    constexpr double force_tolerance = 1e-9;
-    return std::min(parameters.tolerance,
-                    force_tolerance * Utilities::MPI::max(violation, nodes.get_communicator()));
+    constexpr double force_tolerance = 1e-11, rounding = 1e-14;
+    const double relative = force_tolerance *
+                            Utilities::MPI::max(violation, nodes.get_communicator());
+    return std::min(parameters.tolerance, std::max(relative, rounding));
   }
 
 
-  // 0 <= t_n _|_ A t_n + n . (G (dx_f + dx_tau) + g) >= 0. Returns the largest change of a gap that
-  // the new forces make, relative to the cell size.
-  double
-  CoupledSolver::complementarity(const ContactNodes::Field &dx_free)
+  void
+  CoupledSolver::solve_together(const ContactNodes::Field &dx_free)
   {
+    constexpr unsigned int patience = 3; // iterations that old factors may cost more than new ones
+
     const auto &s       = delassus.scale();
-    const std::size_t n = participants.size();
-    std::vector<double> b(n), tau(n);
-    normal_violation = 0.;
-    if (tangential_forces)
-      {
-        const auto &dx_tau = delassus.increments(
-          [&](const std::size_t i) { return participants[i]->tangential_force; });
-        for (std::size_t i = 0; i < n; ++i)
-          b[i] = s[i] * (participants[i]->normal * participants[i]->relative(dx_tau));
-      }
+    const std::size_t n = coupled.size();
+    ScaledProblem scaled{delassus, friction};
+    using Solver = ProjectedNewton<ScaledProblem, PairPreconditioner>;
+    Solver::Problem problem{Solver::Vector(n), weights, norm, friction_somewhere, compliance};
+    Solver::Vector tau(n);
+    double violation = 0.;
     for (std::size_t i = 0; i < n; ++i)
       {
-        const auto &pair = *participants[i];
-        b[i] += s[i] * (pair.normal * pair.relative(dx_free) + pair.target_gap);
-        tau[i]           = s[i] > 0. ? pair.normal_force / s[i] : 0.;
-        normal_violation = std::max(normal_violation, -weights[i] * b[i]);
+        const auto &pair = *coupled[i];
+        problem.b[i]     = s[i] * (delassus.frame(i) * pair.relative(dx_free));
+        problem.b[i][0] += s[i] * pair.target_gap;
+        tau[i]    = s[i] > 0. ? delassus.frame(i) * pair.force() / s[i] : Tensor<1, 3>();
+        violation = std::max(violation, -weights[i] * problem.b[i][0]);
       }
-    last_tolerance = tolerance_for(normal_violation);
-    if (last_tolerance == 0.) // nothing would close: no force at all
-      tau.assign(n, 0.);
-    set_isolated(HalfLine(), b, tau);
-
-    ProjectedConjugateGradients<HalfLine> solver(nodes.get_communicator(),
-                                                 last_tolerance,
-                                                 parameters.limit);
-    const auto result = solver.solve([&](const std::vector<double> &t,
-                                         std::vector<double> &y) { delassus.apply_normal(t, y); },
-                                     b,
-                                     HalfLine(),
-                                     weights,
-                                     norm,
-                                     tau);
+    const double tolerance = tolerance_for(violation);
+    Solver solver(scaled, preconditioner, nodes.get_communicator(), tolerance, parameters.limit);
+    const auto result = solver.solve(problem, tau);
     n_iterations += result.n_applications;
     last_residual = std::max(last_residual, result.residual);
-
-    double change = 0.;
+    all_converged = all_converged && result.converged;
+    if (!preconditioner.is_old())
+      iterations_when_new = result.n_applications;
+    else if (result.n_applications > iterations_when_new + patience)
+      preconditioner.forget();
     for (std::size_t i = 0; i < n; ++i)
       {
-        const double force = s[i] * tau[i];
-        if (s[i] > 0.)
-          change = std::max(change,
-                            std::abs(force - participants[i]->normal_force) /
-                              (s[i] * s[i] * participants[i]->size));
-        participants[i]->normal_force = force;
-      }
-    return Utilities::MPI::max(change, nodes.get_communicator());
-  }
-
-
-  void
-  CoupledSolver::solve_friction(const ContactNodes::Field &dx_free,
-                                const std::vector<double> &friction_coefficients)
-  {
-    double largest = 0.;
-    for (std::size_t i = 0; i < participants.size(); ++i)
-      if (participants[i]->normal_force > 0.)
-        largest = std::max(largest, friction_coefficients[indices[i]]);
-    if (Utilities::MPI::max(largest, nodes.get_communicator()) == 0.)
-      {
-        for (ContactPair *const pair : participants)
-          pair->tangential_force = Tensor<1, 3>();
-        return;
-      }
-
-    constexpr unsigned int max_rounds = 10;
-    for (unsigned int round = 0; round < max_rounds; ++round)
-      {
-        slip(dx_free, friction_coefficients);
-        if (complementarity(dx_free) <= last_tolerance)
-          break;
+        auto &pair            = *coupled[i];
+        const auto force      = s[i] * tau[i];
+        pair.normal_force     = force[0];
+        pair.tangential_force = force[1] * delassus.frame(i)[1] + force[2] * delassus.frame(i)[2];
+        // On the circle up to rounding is sliding.
+        pair.sticks = pair.normal_force > 0. &&
+                      pair.tangential_force.norm() < (1. - 1e-12) * friction[i] * pair.normal_force;
       }
   }
 
 
-  // Friction for given normal forces: minimizes over |t_i| <= mu_i t_n,i, which makes the slip
-  // P_tau G dx vanish inside the circle and oppose the force on it.
-  void
-  CoupledSolver::slip(const ContactNodes::Field &dx_free,
-                      const std::vector<double> &friction_coefficients)
+  const ContactNodes::Field &
+  CoupledSolver::increments()
   {
-    const auto &s       = delassus.scale();
-    const std::size_t n = participants.size();
-    Discs discs;
-    // Of normal forces too: where nothing slips, slip itself is rounding and no measure.
-    double violation = normal_violation;
-    std::vector<Tensor<1, 3>> b(n), tau(n);
-    const auto &dx_n = delassus.increments(
-      [&](const std::size_t i) { return participants[i]->normal_force * participants[i]->normal; });
-    for (std::size_t i = 0; i < n; ++i)
-      {
-        const auto &pair = *participants[i];
-        b[i]   = s[i] * pair.tangential_part(pair.relative(dx_free) + pair.relative(dx_n));
-        tau[i] = s[i] > 0. ? pair.tangential_part(pair.tangential_force) / s[i] : Tensor<1, 3>();
-        discs.radius.push_back(
-          s[i] > 0. ? friction_coefficients[indices[i]] * pair.normal_force / s[i] : 0.);
-        violation = std::max(violation, weights[i] * b[i].norm());
-      }
-    set_isolated(discs, b, tau);
-    ProjectedConjugateGradients<Discs> solver(nodes.get_communicator(),
-                                              tolerance_for(violation),
-                                              parameters.limit);
-    const auto
-      result = solver.solve([&](const std::vector<Tensor<1, 3>> &t,
-                                std::vector<Tensor<1, 3>> &y) { delassus.apply_tangential(t, y); },
-                            b,
-                            discs,
-                            weights,
-                            norm,
-                            tau);
-    n_iterations += result.n_applications;
-    last_residual     = std::max(last_residual, result.residual);
-    tangential_forces = true;
-    for (std::size_t i = 0; i < n; ++i)
-      {
-        participants[i]->tangential_force = s[i] * tau[i];
-        participants[i]->sticks           = participants[i]->normal_force > 0. &&
-                                  discs.is_interior(i, tau[i]);
-      }
+    return delassus_of_all.increments([&](const std::size_t i) { return all[i]->force(); });
   }
 } // namespace akmon

@@ -9,6 +9,29 @@ namespace akmon
 {
   using dealii::Tensor;
 
+  namespace
+  {
+    // A unit vector and two others that complete it to an orthonormal frame.
+    Tensor<2, 3>
+    frame_of(const Tensor<1, 3> &normal)
+    {
+      unsigned int smallest = 0;
+      for (unsigned int d = 1; d < 3; ++d)
+        if (std::abs(normal[d]) < std::abs(normal[smallest]))
+          smallest = d;
+      Tensor<1, 3> axis;
+      axis[smallest]     = 1.;
+      Tensor<1, 3> first = cross_product_3d(normal, axis);
+      first /= first.norm();
+      Tensor<2, 3> frame;
+      frame[0] = normal;
+      frame[1] = first;
+      frame[2] = cross_product_3d(normal, first);
+      return frame;
+    }
+  } // namespace
+
+
   Delassus::Delassus(const ContactNodes &nodes, const Mobility &mobility)
     : nodes(nodes)
     , mobility(mobility)
@@ -22,10 +45,12 @@ namespace akmon
     pairs       = new_pairs;
     mass_factor = new_mass_factor;
     scales.clear();
+    frames.clear();
     for (const ContactPair *const pair : pairs)
       {
         const double A_ii = mobility.along(*pair, pair->normal, mass_factor);
         scales.push_back(A_ii > 0. ? 1. / std::sqrt(A_ii) : 0.);
+        frames.push_back(frame_of(pair->normal));
       }
     used.clear();
     for (const ContactPair *const pair : pairs)
@@ -36,15 +61,21 @@ namespace akmon
   }
 
 
-  // Row sums of |A| bound its norm: node by node, the coefficients of all pairs at the node.
+  // Row sums of the norms of A's blocks bound its norm: node by node, the coefficients of all pairs
+  // at the node.
   double
   Delassus::norm_bound()
   {
+    const auto coefficient = [&](const std::size_t i, const unsigned int k) {
+      const ContactPair &pair = *pairs[i];
+      const double of_lever = pair.levered && k > 0 ? pair.lever.norm() * pair.arms[k - 1].norm() :
+                                                      0.;
+      return (std::abs(pair.weights[k]) + of_lever) * scales[i];
+    };
     clear();
     for (std::size_t i = 0; i < pairs.size(); ++i)
       for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
-        field.add(pairs[i]->nodes[k],
-                  Tensor<1, 3>({std::abs(pairs[i]->weights[k]) * scales[i], 0., 0.}));
+        field.add(pairs[i]->nodes[k], Tensor<1, 3>({coefficient(i, k), 0., 0.}));
     nodes.add_to_owners(field);
     nodes.update_ghosts(field);
     double largest = 0.;
@@ -54,8 +85,8 @@ namespace akmon
         for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
           {
             const unsigned int number = pairs[i]->nodes[k];
-            row += std::abs(pairs[i]->weights[k]) * scales[i] * field[number][0] *
-                   mobility.inverse_mass(number) / mass_factor;
+            row += coefficient(i, k) * field[number][0] * mobility.inverse_mass(number) /
+                   mass_factor;
           }
         largest = std::max(largest, row);
       }
@@ -74,9 +105,12 @@ namespace akmon
     nodes.update_ghosts(field);
     std::vector<bool> result;
     for (const ContactPair *const pair : pairs)
-      result.push_back(std::all_of(pair->nodes.begin(),
-                                   pair->nodes.begin() + pair->n_nodes,
-                                   [&](const auto number) { return field[number][0] == 1.; }));
+      result.push_back(!pair->levered && std::all_of(pair->nodes.begin(),
+                                                     pair->nodes.begin() + pair->n_nodes,
+                                                     [&](const auto number) {
+                                                       return field[number][0] == 1. &&
+                                                              mobility.is_free(number);
+                                                     }));
     return result;
   }
 
@@ -112,19 +146,10 @@ namespace akmon
 
 
   void
-  Delassus::apply_normal(const std::vector<double> &tau, std::vector<double> &y)
+  Delassus::apply(const Vector &tau, Vector &y)
   {
-    increments([&](const std::size_t i) { return (scales[i] * tau[i]) * pairs[i]->normal; });
+    increments([&](const std::size_t i) { return scales[i] * (tau[i] * frames[i]); });
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      y[i] = scales[i] * (pairs[i]->normal * pairs[i]->relative(field));
-  }
-
-
-  void
-  Delassus::apply_tangential(const std::vector<Tensor<1, 3>> &tau, std::vector<Tensor<1, 3>> &y)
-  {
-    increments([&](const std::size_t i) { return scales[i] * tau[i]; });
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      y[i] = scales[i] * pairs[i]->tangential_part(pairs[i]->relative(field));
+      y[i] = scales[i] * (frames[i] * pairs[i]->relative(field));
   }
 } // namespace akmon

@@ -43,7 +43,10 @@ namespace akmon
   {
     double sum = 0.;
     for (unsigned int k = 0; k < pair.n_nodes; ++k)
-      sum += pair.weights[k] * pair.weights[k] * (direction * (W[pair.nodes[k]] * direction));
+      {
+        const auto force = pair.at_node(k, direction);
+        sum += force * (W[pair.nodes[k]] * force);
+      }
     return sum / mass_factor;
   }
 } // namespace akmon

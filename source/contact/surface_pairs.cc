@@ -8,6 +8,41 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    constexpr double opposed = 0.02; // cosine: sides of an edge do not look at each other
+
+
+    // What the lever of a pair needs (see ContactPair): the corners' places from their centre, and
+    // [o x] I^{-1}.
+    void
+    set_lever(const Segment &corners, const Tensor<1, 3> &offset, ContactPair &pair)
+    {
+      const auto centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+      SymmetricTensor<2, 3> inertia;
+      for (unsigned int k = 0; k < 4; ++k)
+        {
+          const auto r     = corners[k] - centre;
+          pair.arms[k]     = r;
+          const double r_r = r * r;
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = i; j < 3; ++j)
+              inertia[i][j] += (i == j ? r_r : 0.) - r[i] * r[j];
+        }
+      const Tensor<2, 3> inverse = invert(inertia);
+      for (unsigned int j = 0; j < 3; ++j)
+        {
+          const auto column = cross_product_3d(offset,
+                                               Tensor<1, 3>(
+                                                 {inverse[0][j], inverse[1][j], inverse[2][j]}));
+          for (unsigned int i = 0; i < 3; ++i)
+            pair.lever[i][j] = column[i];
+        }
+      pair.levered = true;
+    }
+  } // namespace
+
+
   Segment
   SurfaceSearch::segment(const ContactNodes::Field &x, const MasterFace &face) const
   {
@@ -32,6 +67,25 @@ namespace akmon
   }
 
 
+  void
+  SurfaceSearch::measure_faces(const ContactNodes::Field &x)
+  {
+    shapes.resize(masters.size());
+    for (const unsigned int f : candidate_faces)
+      {
+        const Segment corners = segment(x, masters[f]);
+        auto &shape           = shapes[f];
+        shape.normal          = area_vector(corners);
+        shape.area            = shape.normal.norm();
+        shape.middle          = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+        shape.radius          = 0.;
+        for (const auto &corner : corners)
+          shape.radius = std::max(shape.radius, (corner - shape.middle).norm_square());
+        shape.radius = std::sqrt(shape.radius);
+      }
+  }
+
+
   unsigned int
   SurfaceSearch::faces_sharing(const unsigned int node_a, const unsigned int node_b) const
   {
@@ -43,39 +97,45 @@ namespace akmon
   }
 
 
-  // The closest candidate face that looks towards the slave's surface and is not part of it.
+  // The closest candidate face that looks towards the slave's surface and is not part of it. The
+  // partner of the last search tells how close it is at least; which of equally close faces is
+  // taken does not depend on it.
   bool
-  SurfaceSearch::closest_segment(const ContactNodes::Field &x,
-                                 const unsigned int slave,
-                                 const Tensor<1, 3> &outward,
-                                 Partner &partner) const
+  SurfaceSearch::closest_face(const ContactNodes::Field &x,
+                              const unsigned int slave,
+                              Partner &partner) const
   {
-    constexpr double opposed = 0.02; // cosine: sides of an edge do not look at each other
-
-    const auto point = x[slaves[slave].number];
-    double best      = std::numeric_limits<double>::max();
+    const auto point      = x[slaves[slave].number];
+    const auto &outward   = outwards[slave];
+    const double size     = outward.norm();
+    const auto looks_here = [&](const unsigned int f) {
+      return shapes[f].normal * outward <= -opposed * shapes[f].area * size;
+    };
+    double bound            = std::numeric_limits<double>::max();
+    const unsigned int last = last_faces[slave];
+    Projection of_last;
+    if (last != numbers::invalid_unsigned_int && looks_here(last))
+      {
+        of_last = project(point, segment(x, masters[last]));
+        bound   = of_last.offset.norm();
+      }
+    double best = std::numeric_limits<double>::max();
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const auto &face      = masters[candidates[i]];
-        const Segment corners = segment(x, face);
-        const auto normal     = area_vector(corners);
-        if (normal * outward > -opposed * normal.norm() * outward.norm())
+        const unsigned int f = candidates[i];
+        if (!looks_here(f))
           continue;
-        // No point of the face is closer than its middle less the way to its furthest corner.
-        const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-        const double least = (point - middle).norm() -
-                             std::sqrt(std::max({(corners[0] - middle).norm_square(),
-                                                 (corners[1] - middle).norm_square(),
-                                                 (corners[2] - middle).norm_square(),
-                                                 (corners[3] - middle).norm_square()}));
-        if (least > 0. && least * least > best)
+        // No point of the face is closer than its middle less the way to its furthest corner; a
+        // thousandth so that rounding excludes no face.
+        const double furthest = 1.001 * (shapes[f].radius + std::min(bound, best));
+        if ((point - shapes[f].middle).norm_square() > furthest * furthest)
           continue;
-        const Projection projection = project(point, corners);
-        const double distance       = projection.offset.norm_square();
+        const Projection projection = f == last ? of_last : project(point, segment(x, masters[f]));
+        const double distance       = projection.offset.norm();
         if (distance < best)
           {
             best               = distance;
-            partner.face       = candidates[i];
+            partner.face       = f;
             partner.projection = projection;
           }
       }
@@ -141,89 +201,176 @@ namespace akmon
   }
 
 
-  // The partner of a slave at positions x; false if it has none within the radius.
+  // Normal and gap of a partner whose closest point is known; false where it is none: too far
+  // outside or inside, or beyond the rim.
   bool
-  SurfaceSearch::locate(const ContactNodes::Field &x,
-                        const unsigned int slave,
-                        const Tensor<1, 3> &outward,
-                        Partner &partner) const
+  SurfaceSearch::complete(const ContactNodes::Field &x,
+                          const unsigned int slave,
+                          Partner &partner) const
   {
     // A node further inside than this part of the cell behind the face belongs to another face's
     // side.
     constexpr double deepest_part = 0.5;
 
     const bool to_points = contact.gap_model == SurfaceContact::GapModel::point_to_point;
-    if (!closest_segment(x, slave, outward, partner))
-      return false;
     if (to_points)
       snap_to_closest_node(x, x[slaves[slave].number], partner);
-
     bool on_rim;
-    const auto &face       = masters[partner.face];
-    partner.normal         = feature_normal(x, partner, on_rim);
-    partner.gap            = partner.normal * partner.projection.offset;
+    partner.normal = feature_normal(x, partner, on_rim);
+    partner.gap    = partner.normal * partner.projection.offset;
+    if (partner.gap > search_radius || partner.gap < -deepest_part * masters[partner.face].depth)
+      return false;
+    if (!on_rim)
+      return true;
     const double overhang  = (partner.projection.offset - partner.gap * partner.normal).norm();
-    const double face_size = std::sqrt(area_vector(segment(x, face)).norm());
-    const double allowed   = (to_points ? 0.5 : contact.rim_tolerance) * face_size;
-    return partner.gap <= search_radius && partner.gap >= -deepest_part * face.depth &&
-           !(on_rim && overhang > allowed);
+    const double face_size = std::sqrt(area_vector(segment(x, masters[partner.face])).norm());
+    return overhang <= (to_points ? 0.5 : contact.rim_tolerance) * face_size;
   }
 
 
-  // What the linear gap n . G dx + g misses while segments turn under the slave: the true gap where
-  // the last increment would lead once more, less its linear prediction.
-  double
-  SurfaceSearch::curvature(const ContactNodes::Field &x_ahead,
-                           const ContactNodes::Field &dx,
-                           const unsigned int slave,
-                           const Tensor<1, 3> &outward,
-                           const ContactPair &pair) const
+  bool
+  SurfaceSearch::gap_at(const ContactNodes::Field &x, const ContactPair &pair, double &gap) const
   {
-    const auto motion = pair.relative(dx);
-    const double size = motion.norm();
-    Partner ahead;
-    if (pair.gap > 4. * size || !locate(x_ahead, slave, outward, ahead))
-      return 0.;
-    // A partner of another kind (another side of an edge) is no small turn.
-    return std::clamp(ahead.gap - (pair.gap + pair.normal * motion), -0.1 * size, 0.1 * size);
+    const unsigned int slave = pair.row;
+    const auto point         = x[slaves[slave].number];
+    Partner partner;
+    partner.face       = pair.face;
+    partner.projection = project(point, segment(x, masters[pair.face]));
+    if (partner.projection.feature != Projection::Feature::face)
+      {
+        // A step leads no further than to the neighbours.
+        double best = partner.projection.offset.norm();
+        for (const unsigned int node : masters[pair.face].nodes)
+          for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
+            {
+              const auto &face    = masters[faces_at[i]];
+              const auto corners  = segment(x, face);
+              const auto normal   = area_vector(corners);
+              const auto &outward = outwards[slave];
+              if (faces_at[i] == pair.face ||
+                  normal * outward > -opposed * normal.norm() * outward.norm() ||
+                  std::find(face.nodes.begin(), face.nodes.end(), slaves[slave].number) !=
+                    face.nodes.end())
+                continue;
+              const auto projection = project(point, corners);
+              if (projection.offset.norm() < best)
+                {
+                  best               = projection.offset.norm();
+                  partner.face       = faces_at[i];
+                  partner.projection = projection;
+                }
+            }
+      }
+    const bool found = complete(x, slave, partner);
+    gap              = partner.gap;
+    return found;
+  }
+
+
+  ContactPair
+  SurfaceSearch::make_pair(const ContactNodes::Field &x,
+                           const unsigned int slave,
+                           const Partner &partner) const
+  {
+    ContactPair pair;
+    pair.interface  = interface;
+    pair.reversed   = reversed;
+    pair.slave      = slaves[slave].node;
+    pair.slave_id   = slaves[slave].id;
+    pair.search     = number;
+    pair.row        = slave;
+    pair.face       = partner.face;
+    pair.normal     = partner.normal;
+    pair.gap        = partner.gap;
+    pair.size       = slaves[slave].size;
+    pair.nodes[0]   = slaves[slave].number;
+    pair.weights[0] = 1.;
+
+    // Forces along the offset make no couple.
+    const auto &offset  = partner.projection.offset;
+    const double couple = has_friction ? offset.norm() :
+                                         (offset - partner.gap * partner.normal).norm();
+    const bool levered  = turns_with_segments && couple > 1e-14 * pair.size &&
+                         contact.gap_model == SurfaceContact::GapModel::point_to_segment;
+    for (unsigned int k = 0; k < 4; ++k)
+      if (levered || partner.projection.N[k] != 0.)
+        {
+          pair.nodes[pair.n_nodes]     = masters[partner.face].nodes[k];
+          pair.weights[pair.n_nodes++] = -partner.projection.N[k];
+        }
+    if (levered)
+      set_lever(segment(x, masters[partner.face]), offset, pair);
+    return pair;
+  }
+
+
+  // Further faces of a corner that the slave may run into: turned against the first partner, with
+  // the slave in front of them.
+  void
+  SurfaceSearch::add_corner_pairs(const ContactNodes::Field &x,
+                                  const double reach,
+                                  std::vector<ContactPair> &pairs) const
+  {
+    constexpr double turned = 0.5; // cosine
+
+    const std::size_t first  = pairs.size() - 1;
+    const unsigned int slave = pairs[first].row;
+    const auto point         = x[slaves[slave].number];
+    const auto &outward      = outwards[slave];
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+      {
+        Partner partner;
+        partner.face         = candidates[i];
+        const auto &shape    = shapes[partner.face];
+        const double longest = shape.radius + reach;
+        const auto is_turned = [&](const ContactPair &other) {
+          return shape.normal * other.normal < turned * shape.area;
+        };
+        if ((point - shape.middle).norm_square() > longest * longest ||
+            shape.normal * outward > -opposed * shape.area * outward.norm() ||
+            !std::all_of(pairs.begin() + first, pairs.end(), is_turned))
+          continue;
+        partner.projection = project(point, segment(x, masters[partner.face]));
+        if (partner.projection.feature == Projection::Feature::face &&
+            partner.projection.offset.norm() <= reach && complete(x, slave, partner))
+          {
+            pairs.push_back(make_pair(x, slave, partner));
+            pairs.back().slot = pairs.size() - 1 - first;
+          }
+      }
   }
 
 
   void
   SurfaceSearch::find_pairs(const NodalVector &positions,
                             const ContactNodes::Field &x,
-                            const ContactNodes::Field &x_ahead,
-                            const ContactNodes::Field &dx,
-                            std::vector<ContactPair> &pairs) const
+                            const double reach,
+                            const double travelled,
+                            std::vector<ContactPair> &pairs)
   {
+    measure_faces(x);
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
-        if (slaves[s].first_candidate == slaves[s + 1].first_candidate)
+        if (slaves[s].first_candidate == slaves[s + 1].first_candidate || travelled < rest_until[s])
           continue;
-        const auto outward = slave_normal(positions, s);
+        outwards[s] = slave_normal(positions, s);
         Partner partner;
-        if (!locate(x, s, outward, partner))
+        if (!closest_face(x, s, partner))
+          {
+            // Faces around a fold may turn towards the slave.
+            last_faces[s] = numbers::invalid_unsigned_int;
+            rest_until[s] = travelled + 0.1 * search_radius;
+            continue;
+          }
+        last_faces[s]         = partner.face;
+        const double distance = partner.projection.offset.norm();
+        if (distance > 2. * reach)
+          rest_until[s] = travelled + 0.5 * (distance - reach);
+        if (!complete(x, s, partner))
           continue;
-
-        ContactPair pair;
-        pair.interface  = interface;
-        pair.reversed   = reversed;
-        pair.slave      = slaves[s].node;
-        pair.slave_id   = slaves[s].id;
-        pair.normal     = partner.normal;
-        pair.gap        = partner.gap;
-        pair.size       = slaves[s].size;
-        pair.nodes[0]   = slaves[s].number;
-        pair.weights[0] = 1.;
-        for (unsigned int k = 0; k < 4; ++k)
-          if (partner.projection.N[k] != 0.)
-            {
-              pair.nodes[pair.n_nodes]     = masters[partner.face].nodes[k];
-              pair.weights[pair.n_nodes++] = -partner.projection.N[k];
-            }
-        if (follow_curvature)
-          pair.curvature = curvature(x_ahead, dx, s, outward, pair);
-        pairs.push_back(pair);
+        pairs.push_back(make_pair(x, s, partner));
+        if (turns_with_segments && distance <= reach)
+          add_corner_pairs(x, reach, pairs);
       }
   }
 } // namespace akmon

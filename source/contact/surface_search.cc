@@ -67,21 +67,24 @@ namespace akmon
   SurfaceSearch::SurfaceSearch(const Discretization &discretization,
                                const SurfaceContact &contact,
                                const unsigned int interface,
+                               const unsigned int number,
                                const bool reversed,
-                               const bool follow_curvature)
+                               const bool coupled)
     : discretization(discretization)
     , contact(contact)
     , interface(interface)
+    , number(number)
     , reversed(reversed)
-    , follow_curvature(follow_curvature)
+    , turns_with_segments(coupled)
+    , has_friction(contact.friction.static_coefficient > 0.)
     , slave_faces(select_faces(discretization, contact, "Slave", contact.slaves))
     , master_faces(select_faces(discretization, contact, "Master", contact.masters))
   {
     if (reversed)
       std::swap(slave_faces, master_faces);
-    search_radius = 0.5 * std::max(mean_size(discretization, slave_faces),
-                                   mean_size(discretization, master_faces));
-    faces         = slave_faces;
+    least_radius = search_radius = 0.5 * std::max(mean_size(discretization, slave_faces),
+                                                  mean_size(discretization, master_faces));
+    faces                        = slave_faces;
     faces.insert(faces.end(), master_faces.begin(), master_faces.end());
     collect_slaves();
   }
@@ -116,6 +119,7 @@ namespace akmon
                                .norm());
       }
     new_slave(numbers::invalid_unsigned_int);
+    outwards.resize(slaves.size());
   }
 
 
@@ -244,6 +248,12 @@ namespace akmon
         std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());
       }
     slaves.back().first_candidate = candidates.size();
+    candidate_faces               = candidates;
+    std::sort(candidate_faces.begin(), candidate_faces.end());
+    candidate_faces.erase(std::unique(candidate_faces.begin(), candidate_faces.end()),
+                          candidate_faces.end());
+    last_faces.assign(slaves.size(), numbers::invalid_unsigned_int);
+    rest_until.assign(slaves.size(), 0.);
   }
 
 

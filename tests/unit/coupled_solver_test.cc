@@ -9,7 +9,7 @@
 #include "support/report.h"
 
 // CoupledSolver alone, for the pairs of two small boxes whose meshes do not match, from any start:
-// an increment that does not depend on the start although forces do.
+// increments that do not depend on the start, nor do forces although constraints repeat each other.
 
 namespace
 {
@@ -47,21 +47,21 @@ namespace
       for (auto &pair : pairs)
         {
           pair.target_gap   = pair.gap;
+          pair.levered      = false; // levers of open gaps have their own test
           pair.normal_force = start * uniform(random);
         }
       CoupledSolver solver(boxes.solver, boxes.nodes, mobility);
-      solver.solve_normal(pairs, dx_free, mass_factor);
-      EXPECT_LE(solver.residual(), boxes.solver.tolerance);
-      if (friction)
-        solver.solve_friction(dx_free, std::vector<double>(pairs.size(), 0.4));
+      solver.begin_step(pairs, dx_free, std::vector<double>(pairs.size(), mu), mass_factor);
+      EXPECT_EQ(solver.has_friction(), mu > 0.);
+      solver.solve(dx_free);
+      EXPECT_TRUE(solver.converged());
       EXPECT_LE(solver.residual(), boxes.solver.tolerance);
       iterations = solver.iterations();
 
       std::vector<Vector> force(boxes.nodes.size()), dx(boxes.nodes.size());
       for (const auto &pair : pairs)
         for (unsigned int k = 0; k < pair.n_nodes; ++k)
-          force[pair.nodes[k]] += pair.weights[k] *
-                                  (pair.normal_force * pair.normal + pair.tangential_force);
+          force[pair.nodes[k]] += pair.at_node(k, pair.force());
       for (unsigned int i = 0; i < dx.size(); ++i)
         dx[i] = dx_free[i] +
                 force[i] / (boxes.discretization.mass[boxes.nodes.local_node(i)] * mass_factor);
@@ -72,7 +72,7 @@ namespace
     Boxes boxes;
     Mobility mobility;
     ContactNodes::Field dx_free;
-    bool friction           = false;
+    double mu               = 0.;
     unsigned int iterations = 0;
   };
 
@@ -92,7 +92,7 @@ namespace
   };
 
 
-  TEST_P(UniqueIncrement, from_any_start_though_forces_differ)
+  TEST_P(UniqueIncrement, and_forces_from_any_start)
   {
     const auto [n, m] = GetParam();
     Alone alone(n, m);
@@ -114,15 +114,17 @@ namespace
     report("difference of increments", increments);
     report("difference of forces over the largest", forces / largest);
     EXPECT_LE(increments, 1e-9);
-    EXPECT_GE(forces, 1e-3 * largest);
+    EXPECT_LE(forces, 1e-6 * largest);
   }
 
 
-  TEST_P(UniqueIncrement, with_friction_to_the_accuracy_of_the_rounds)
+  // Where constraints repeat each other normal forces are not unique, and with them friction
+  // limits: increments of what slips are not either. What sticks is.
+  TEST_P(UniqueIncrement, with_friction_that_holds)
   {
     const auto [n, m] = GetParam();
     Alone alone(n, m);
-    alone.friction = true;
+    alone.mu = 20.;
     std::vector<ContactPair> pairs, others;
     const auto expected = alone.solve(0., 1, pairs);
     double increments   = 0.;
@@ -131,8 +133,20 @@ namespace
                             largest_difference(alone.solve(10., seed, others), expected));
     report("iterations", alone.iterations);
     report("difference of increments over the approach", increments / 0.03);
+    EXPECT_LE(increments, 1e-9);
+  }
+
+
+  TEST_P(UniqueIncrement, keeps_to_the_friction_limits)
+  {
+    const auto [n, m] = GetParam();
+    Alone alone(n, m);
+    alone.mu = 0.4;
+    std::vector<ContactPair> pairs;
+    alone.solve(0., 1, pairs);
+    report("iterations", alone.iterations);
     for (const auto &pair : pairs)
-      EXPECT_LE(pair.tangential_force.norm(), 0.4 * pair.normal_force + 1e-8);
+      EXPECT_LE(pair.tangential_force.norm(), 0.4 * pair.normal_force * (1. + 1e-12));
   }
 
 
@@ -143,14 +157,18 @@ namespace
                                            std::make_pair(5u, 4u)));
 
 
-  TEST(CoupledSolver, WarmStartFromTheSolutionCostsNothing)
+  TEST(CoupledSolver, WarmStartFromTheSolutionCostsLittle)
   {
     Alone alone(4, 3);
     std::vector<ContactPair> pairs;
     alone.solve(0., 1, pairs);
     CoupledSolver solver(alone.boxes.solver, alone.boxes.nodes, alone.mobility);
-    solver.solve_normal(pairs, alone.dx_free, Alone::mass_factor);
-    EXPECT_LE(solver.iterations(), 2u);
+    solver.begin_step(pairs,
+                      alone.dx_free,
+                      std::vector<double>(pairs.size(), 0.),
+                      Alone::mass_factor);
+    solver.solve(alone.dx_free);
+    EXPECT_LE(solver.iterations(), 4u);
   }
 
 
@@ -164,8 +182,11 @@ namespace
         pair.normal_force = 3.;
       }
     CoupledSolver solver(alone.boxes.solver, alone.boxes.nodes, alone.mobility);
-    solver.solve_normal(pairs, alone.dx_free, Alone::mass_factor);
-    solver.solve_friction(alone.dx_free, std::vector<double>(pairs.size(), 0.4));
+    solver.begin_step(pairs,
+                      alone.dx_free,
+                      std::vector<double>(pairs.size(), 0.4),
+                      Alone::mass_factor);
+    solver.solve(alone.dx_free);
     EXPECT_EQ(solver.iterations(), 0u);
     for (const auto &pair : pairs)
       EXPECT_EQ(pair.normal_force, 0.);

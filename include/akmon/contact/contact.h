@@ -50,7 +50,7 @@ namespace akmon
      * Step 5: normal forces that keep every gap non-negative at the position the step reaches.
      * Decoupled: t_n = max(0, -(n . G dx_f + g)/A_ii); coupled: 0 <= t_n _|_ A t_n + n . G dx_f + g
      * >= 0. An open gap g may close; a penetration g < 0 found by the search is taken back at a
-     * limited speed.
+     * limited speed. With friction the coupled solver finds all forces in step 6.
      */
     void
     resolve_normal(const NodalState &state, const double effective_mass_factor);
@@ -114,13 +114,19 @@ namespace akmon
 
   private:
     void
-    rebuild_candidates(const NodalState &state);
+    rebuild_candidates(const NodalState &state, const double reach);
     void
     find_plane_pairs(const NodalState &state);
     void
     warm_start(const std::vector<ContactPair> &previous);
+    double
+    release(const ContactPair &pair, const NodalState &state) const;
     void
     set_target_gaps(const NodalState &state);
+    void
+    solve_coupled(const NodalState &state);
+    double
+    follow_segments(const NodalState &state);
     void
     decoupled_friction(ContactPair &pair,
                        const NodalState &state,
@@ -141,10 +147,11 @@ namespace akmon
     ContactNodes nodes;
     Mobility mobility;
     CoupledSolver coupled;
-    double moved  = 0.; ///< bound of relative motion since candidates were built
-    bool prepared = false;
+    double moved     = 0.; ///< bound of relative motion since candidates were built
+    double travelled = 0.; ///< the same since the beginning
+    bool prepared    = false;
 
-    ContactNodes::Field x, dx, x_ahead, dx_free;
+    ContactNodes::Field x, dx, dx_free, x_reached;
     std::vector<ContactPair> pairs;
     std::vector<ContactNodes::Contribution> contributions;
     std::vector<NodalForce> forces;

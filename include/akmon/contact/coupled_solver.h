@@ -3,18 +3,16 @@
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/delassus.h>
 #include <akmon/contact/pair.h>
-#include <akmon/contact/projected_cg.h>
+#include <akmon/contact/pair_preconditioner.h>
 
 #include <vector>
 
 namespace akmon
 {
   /**
-   * The coupled contact problem of a step (Problem 2, (72)-(75)). Normal forces solve the
-   * complementarity problem with the full Delassus operator; friction is solved for given normal
-   * forces, and both in turn until the normal forces rest. Normal forces come last, so
-   * impenetrability holds to the tolerance. Constraints may repeat each other (symmetric passes):
-   * forces are then not unique, increments are.
+   * The coupled contact problem of a step (Problem 2, (72)-(75)): normal and friction forces of all
+   * pairs at once with the full Delassus operator. Constraints may repeat each other (symmetric
+   * passes): forces are then not unique, increments are.
    */
   class CoupledSolver
   {
@@ -24,22 +22,38 @@ namespace akmon
                   const Mobility &mobility);
 
     /**
-     * Normal forces of the pairs, warm-started from those they have; pairs that cannot close in
-     * this step get none (collective).
-     * @param dx_free  free increments of the step
+     * Take up the pairs of a step; those that cannot close in it get no force (collective).
+     * @param pairs     referred to until the next call
+     * @param dx_free   free increments of the step, at all contact nodes
+     * @param friction  mu of every pair
      */
     void
-    solve_normal(std::vector<ContactPair> &pairs,
-                 const ContactNodes::Field &dx_free,
-                 const double effective_mass_factor);
+    begin_step(std::vector<ContactPair> &pairs,
+               const ContactNodes::Field &dx_free,
+               const std::vector<double> &friction,
+               const double effective_mass_factor);
 
-    /**
-     * Tangential and normal forces of the pairs of the last solve_normal() (collective).
-     * @param friction_coefficients  mu of every pair given to solve_normal()
-     */
+    /// Whether any pair of the step may carry friction, the same on all ranks.
+    bool
+    has_friction() const
+    {
+      return friction_somewhere;
+    }
+
+    /// Forces for the pairs' target gaps, warm-started from those they have (collective).
     void
-    solve_friction(const ContactNodes::Field &dx_free,
-                   const std::vector<double> &friction_coefficients);
+    solve(const ContactNodes::Field &dx_free);
+
+    /// Nodal increments that the pairs' forces cause, at all contact nodes (collective).
+    const ContactNodes::Field &
+    increments();
+
+    /// Pairs that may close in this step.
+    const std::vector<ContactPair *> &
+    participants() const
+    {
+      return all;
+    }
 
     /// Applications of the Delassus operator in the step so far, the same on all ranks.
     unsigned int
@@ -55,40 +69,43 @@ namespace akmon
       return last_residual;
     }
 
+    /// Whether every solution of the step met its tolerance.
+    bool
+    converged() const
+    {
+      return all_converged;
+    }
+
   private:
     void
-    choose_participants(std::vector<ContactPair> &pairs, const ContactNodes::Field &dx_free);
+    choose_participants(std::vector<ContactPair> &pairs,
+                        const ContactNodes::Field &dx_free,
+                        const std::vector<double> &friction);
+    void
+    solve_alone(ContactPair &pair,
+                const ContactNodes::Field &dx_free,
+                const double s,
+                const double friction) const;
+    void
+    solve_together(const ContactNodes::Field &dx_free);
     double
     tolerance_for(const double violation) const;
-    double
-    complementarity(const ContactNodes::Field &dx_free);
-    void
-    slip(const ContactNodes::Field &dx_free, const std::vector<double> &friction_coefficients);
-
-    // A pair that shares no node with another has a closed solution, which is exact.
-    template <typename Set>
-    void
-    set_isolated(const Set &set,
-                 const std::vector<typename Set::Unknown> &b,
-                 std::vector<typename Set::Unknown> &tau) const
-    {
-      for (std::size_t i = 0; i < tau.size(); ++i)
-        if (isolated[i])
-          tau[i] = set.project(i, -1. * b[i]);
-    }
 
     const ContactSolver &parameters;
     const ContactNodes &nodes;
-    Delassus delassus;
-    std::vector<ContactPair *> participants;
-    std::vector<unsigned int> indices; ///< of the participants among all pairs
-    std::vector<bool> isolated;
+    Delassus delassus_of_all, delassus;
+    PairPreconditioner preconditioner;
+    unsigned int iterations_when_new = 0; ///< that fresh factors took
+
+    std::vector<ContactPair *> all, coupled; ///< pairs that may close, those that share nodes
+    std::vector<double> friction_of_all, friction;
+    std::vector<bool> isolated; ///< by number in `all`
     std::vector<double> weights;
     double norm               = 0.;
+    bool couples_somewhere    = false;
+    bool friction_somewhere   = false;
     unsigned int n_iterations = 0;
-    double normal_violation   = 0.; ///< without contact forces, relative to the cell size
-    double last_tolerance     = 0.;
     double last_residual      = 0.;
-    bool tangential_forces    = false; ///< whether any has been found in this step
+    bool all_converged        = true;
   };
 } // namespace akmon

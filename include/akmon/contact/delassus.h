@@ -10,13 +10,15 @@ namespace akmon
 {
   /**
    * The Delassus operator A = G m*^{-1} G^T (65)(76) of a set of pairs, applied without being
-   * assembled: forces to nodes, increments of nodes, relative increments of pairs. Scaled to a unit
-   * diagonal, which preconditions the solvers: unknowns are tau_i = t_i/s_i with s_i = A_ii^{-1/2},
-   * results are s_i times relative increments.
+   * assembled: forces to nodes, increments of nodes, relative increments of pairs. Scaled so that
+   * its diagonal along the normals is one, which preconditions the solvers: unknowns are
+   * tau_i = t_i/s_i with s_i = (n . A_ii n)^{-1/2}, results are s_i times relative increments.
    */
   class Delassus
   {
   public:
+    using Vector = std::vector<dealii::Tensor<1, 3>>;
+
     Delassus(const ContactNodes &nodes, const Mobility &mobility);
 
     /**
@@ -26,29 +28,38 @@ namespace akmon
     void
     reinit(const std::vector<ContactPair *> &pairs, const double mass_factor);
 
-    /// s_i; sqrt(force/length).
+    /// s_i; sqrt(force/length). Zero for pairs that no normal force can move.
     const std::vector<double> &
     scale() const
     {
       return scales;
     }
 
+    const ContactPair &
+    pair(const std::size_t i) const
+    {
+      return *pairs[i];
+    }
+
     /// An upper bound of the norm of the scaled operator, the same on all ranks (collective).
     double
     norm_bound();
 
-    /// Pairs none of whose nodes belongs to another pair (collective).
+    /// Pairs whose nodes belong to no other pair and move alike in all directions: A_ii is a
+    /// multiple of the identity (collective).
     std::vector<bool>
     isolated_pairs();
 
-    /// y_i = s_i n_i . G_i m*^{-1} sum_j G_j^T n_j s_j tau_j (collective).
-    void
-    apply_normal(const std::vector<double> &tau, std::vector<double> &y);
+    /// Rows: normal and two tangents of pair i. Forces and results of apply() are in these frames.
+    const dealii::Tensor<2, 3> &
+    frame(const std::size_t i) const
+    {
+      return frames[i];
+    }
 
-    /// The same for tangential forces and relative increments in the contact planes (collective).
+    /// y_i = s_i F_i G_i m*^{-1} sum_j G_j^T F_j^T s_j tau_j with the frames F (collective).
     void
-    apply_tangential(const std::vector<dealii::Tensor<1, 3>> &tau,
-                     std::vector<dealii::Tensor<1, 3>> &y);
+    apply(const Vector &tau, Vector &y);
 
     /// Nodal increments that forces t_i (a vector per pair, unscaled) cause, at all contact nodes
     /// (collective).
@@ -67,6 +78,7 @@ namespace akmon
     std::vector<ContactPair *> pairs;
     double mass_factor = 1.;
     std::vector<double> scales;
+    std::vector<dealii::Tensor<2, 3>> frames;
     std::vector<unsigned int> used; ///< contact numbers the pairs touch, sorted
     ContactNodes::Field field;
   };

@@ -37,6 +37,15 @@ namespace akmon
       return trace_of_W > 0. ? (W[number] * W[number]) / trace_of_W : 0.;
     }
 
+    /// Whether a node moves alike in all directions.
+    bool
+    is_free(const unsigned int number) const
+    {
+      const auto &W_i = W[number];
+      return W_i[0][0] > 0. && W_i[0][0] == W_i[1][1] && W_i[1][1] == W_i[2][2] &&
+             W_i[0][1] == 0. && W_i[0][2] == 0. && W_i[1][2] == 0.;
+    }
+
     /// d . A_ii d of a pair along a unit direction d, for m* = m times @p mass_factor;
     /// length/force.
     double

@@ -12,6 +12,15 @@ namespace akmon
    * A slave node and its partner, all at configuration n: the row of the gap operator
    * G u = u_s - sum_k N_k u_k (56), the unit normal and the gap, and the contact forces found for
    * it. Against an obstacle the slave is the only node.
+   *
+   * While a gap o = x_s - sum_k N_k x_k is open, opposite forces at both its ends are a couple
+   * o x t, and a rigid rotation changes G u. Where that matters the operator is
+   *
+   *     G u = u_s - sum_k N_k u_k - theta x o,     theta = I^{-1} sum_k r_k x u_k
+   *
+   * with the mean rotation theta of the segment's corners, r_k their places from their centre and I
+   * = sum_k (r_k.r_k 1 - r_k r_k): G vanishes for rigid motions, and forces G^T t have neither a
+   * resultant nor a moment, so that angular momentum is conserved exactly.
    */
   struct ContactPair
   {
@@ -19,6 +28,10 @@ namespace akmon
     bool reversed = false;  ///< slave and master of the interface change roles
     unsigned int slave;     ///< local number of the (owned) slave node
     ContactNodes::Id slave_id;
+    unsigned int slot    = 0; ///< 0: with the closest face; else with another face of a corner
+    unsigned int search  = 0; ///< that found it: its number, of the slave and of the face there
+    unsigned int row     = 0;
+    unsigned int face    = 0;
     unsigned int n_nodes = 1;
     std::array<unsigned int, 5> nodes; ///< contact numbers: slave, then masters
     std::array<double, 5> weights;     ///< 1, then -N_k
@@ -27,11 +40,21 @@ namespace akmon
     double gap;                  ///< n . g_0, negative when penetrating; length
     double size;                 ///< of the cell faces at the slave; length
 
+    bool levered = false;
+    dealii::Tensor<2, 3> lever;               ///< [o x] I^{-1}; 1/length
+    std::array<dealii::Tensor<1, 3>, 4> arms; ///< r_k of the masters; length
+
     double curvature    = 0.; ///< second-order part of the gap the step reaches; length
     double target_gap   = 0.; ///< gap of which no more may be lost in this step; length
     double normal_force = 0.; ///< t_n, on the slave along the normal; force
     dealii::Tensor<1, 3> tangential_force; ///< t_tau, on the slave; force
     bool sticks = false;
+
+    dealii::Tensor<1, 3>
+    force() const
+    {
+      return normal_force * normal + tangential_force;
+    }
 
     /// G u
     dealii::Tensor<1, 3>
@@ -40,7 +63,23 @@ namespace akmon
       dealii::Tensor<1, 3> result;
       for (unsigned int k = 0; k < n_nodes; ++k)
         result += weights[k] * u[nodes[k]];
+      if (levered)
+        {
+          dealii::Tensor<1, 3> turn;
+          for (unsigned int k = 1; k < n_nodes; ++k)
+            turn += cross_product_3d(arms[k - 1], u[nodes[k]]);
+          result += lever * turn;
+        }
       return result;
+    }
+
+    /// The part of G^T t at the pair's node number k.
+    dealii::Tensor<1, 3>
+    at_node(const unsigned int k, const dealii::Tensor<1, 3> &t) const
+    {
+      if (levered && k > 0)
+        return weights[k] * t + cross_product_3d(t * lever, arms[k - 1]);
+      return weights[k] * t;
     }
 
     /// f += G^T t
@@ -48,7 +87,7 @@ namespace akmon
     distribute(const dealii::Tensor<1, 3> &t, ContactNodes::Field &f) const
     {
       for (unsigned int k = 0; k < n_nodes; ++k)
-        f.add(nodes[k], weights[k] * t);
+        f.add(nodes[k], at_node(k, t));
     }
 
     /// The part of a vector in the contact plane, P_tau v.

@@ -5,6 +5,7 @@
 #include <akmon/contact/pair.h>
 #include <akmon/contact/projection.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace akmon
@@ -22,20 +23,29 @@ namespace akmon
   public:
     /**
      * Throws InputError for unknown surfaces.
+     * @param number    of this search among all, for its pairs
      * @param reversed  the contact's masters are the slaves of this search and the other way round
-     * @param follow_curvature  pairs tell what their linear gap misses while segments turn
+     * @param coupled   for the coupled solver: pairs have levers, corners a pair per face
      */
     SurfaceSearch(const Discretization &discretization,
                   const SurfaceContact &contact,
                   const unsigned int interface,
+                  const unsigned int number,
                   const bool reversed,
-                  const bool follow_curvature);
+                  const bool coupled);
 
     /// Distance over which partners are looked for; length. The same on all ranks.
     double
     radius() const
     {
       return search_radius;
+    }
+
+    /// Let the radius be at least this, from the next build of candidates on; length.
+    void
+    look_as_far_as(const double distance)
+    {
+      search_radius = std::max(least_radius, distance);
     }
 
     /// Get the master faces near this rank's slaves from their owners (collective). Returns their
@@ -51,16 +61,24 @@ namespace akmon
 
     /**
      * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
-     * numbers.
+     * numbers. Slaves that are further from their partners than @p reach may be left out.
      * @param positions  the same configuration as a nodal vector
-     * @param x_ahead    x + dx, with the increment dx that led here
+     * @param reach      what may be closed in this step; length
+     * @param travelled  how far surfaces may have moved against each other so far; length
      */
     void
     find_pairs(const NodalVector &positions,
                const ContactNodes::Field &x,
-               const ContactNodes::Field &x_ahead,
-               const ContactNodes::Field &dx,
-               std::vector<ContactPair> &pairs) const;
+               const double reach,
+               const double travelled,
+               std::vector<ContactPair> &pairs);
+
+    /**
+     * The gap of a pair's slave in another configuration, which a step has led to from the one the
+     * pair was found in; false if it has no partner there.
+     */
+    bool
+    gap_at(const ContactNodes::Field &x, const ContactPair &pair, double &gap) const;
 
     /// Owned and ghost faces of both surfaces.
     const std::vector<BoundaryFace> &
@@ -102,6 +120,13 @@ namespace akmon
       std::array<unsigned int, 4> nodes; ///< contact numbers
     };
 
+    // A master face in the current configuration.
+    struct FaceShape
+    {
+      dealii::Tensor<1, 3> normal, middle; ///< area vector; length^2, length
+      double area, radius;                 ///< radius: from the middle to the furthest corner
+    };
+
     struct Partner
     {
       unsigned int face; ///< in masters
@@ -118,27 +143,23 @@ namespace akmon
     segment(const ContactNodes::Field &x, const MasterFace &face) const;
     dealii::Tensor<1, 3>
     slave_normal(const NodalVector &positions, const unsigned int slave) const;
+    void
+    measure_faces(const ContactNodes::Field &x);
     bool
-    closest_segment(const ContactNodes::Field &x,
-                    const unsigned int slave,
-                    const dealii::Tensor<1, 3> &outward,
-                    Partner &partner) const;
+    closest_face(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
     bool
     may_face(const ContactNodes::Field &x,
              const MasterFace &face,
              const unsigned int slave_number,
              const dealii::Tensor<1, 3> &outward) const;
     bool
-    locate(const ContactNodes::Field &x,
-           const unsigned int slave,
-           const dealii::Tensor<1, 3> &outward,
-           Partner &partner) const;
-    double
-    curvature(const ContactNodes::Field &x_ahead,
-              const ContactNodes::Field &dx,
-              const unsigned int slave,
-              const dealii::Tensor<1, 3> &outward,
-              const ContactPair &pair) const;
+    complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
+    ContactPair
+    make_pair(const ContactNodes::Field &x, const unsigned int slave, const Partner &partner) const;
+    void
+    add_corner_pairs(const ContactNodes::Field &x,
+                     const double reach,
+                     std::vector<ContactPair> &pairs) const;
     void
     snap_to_closest_node(const ContactNodes::Field &x,
                          const dealii::Tensor<1, 3> &slave,
@@ -150,16 +171,20 @@ namespace akmon
 
     const Discretization &discretization;
     const SurfaceContact &contact;
-    const unsigned int interface;
-    const bool reversed;
-    const bool follow_curvature;
-    double search_radius;
+    const unsigned int interface, number;
+    const bool reversed, turns_with_segments, has_friction;
+    double least_radius, search_radius;
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
 
     std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list, candidates;
-    std::vector<FaceMessage> fetched;         ///< sorted by id
-    std::vector<MasterFace> masters;          ///< in the same order
+    std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
+    std::vector<unsigned int> last_faces;       ///< by slave: partner of the last search
+    std::vector<double> rest_until;   ///< by slave: nothing is near before this is travelled
+    std::vector<FaceMessage> fetched; ///< sorted by id
+    std::vector<MasterFace> masters;  ///< in the same order
+    std::vector<FaceShape> shapes;    ///< of the candidate faces, in the same numbers
+    std::vector<unsigned int> candidate_faces;
     std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
   };

@@ -1,0 +1,214 @@
+#include <akmon/contact/contact.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Steps 5 to 7 of Contact: forces and what they do.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  const ContactLaw &
+  Contact::law_of(const ContactPair &pair) const
+  {
+    if (pair.interface < contacts.size())
+      return contacts[pair.interface];
+    return planes[pair.interface - contacts.size()];
+  }
+
+
+  double
+  Contact::release(const ContactPair &pair, const NodalState &state) const
+  {
+    return solver.release_speed * state.dt_next *
+           discretization.material_of(discretization.body_of_node[pair.slave])
+             .dilatational_wave_speed();
+  }
+
+
+  // An exact method would put a node that was found inside back within one step, at depth/dt, far
+  // above any physical speed. So a penetration is taken back at the release speed only; it cannot
+  // grow.
+  void
+  Contact::set_target_gaps(const NodalState &state)
+  {
+    for (auto &pair : pairs)
+      pair.target_gap = pair.curvature + std::max(pair.gap, -release(pair, state));
+  }
+
+
+  void
+  Contact::resolve_normal(const NodalState &state, const double effective_mass_factor)
+  {
+    nodes.gather(state.dx_next, dx_free);
+    set_target_gaps(state);
+    if (solver.type == ContactSolver::Type::coupled)
+      {
+        std::vector<double> friction;
+        friction.reserve(pairs.size());
+        for (const auto &pair : pairs)
+          friction.push_back(friction_coefficient(pair, state));
+        coupled.begin_step(pairs, dx_free, friction, effective_mass_factor);
+        if (!coupled.has_friction())
+          solve_coupled(state);
+        return;
+      }
+    for (auto &pair : pairs)
+      {
+        const double forward_gap = pair.normal * pair.relative(dx_free) + pair.target_gap;
+        const double A_ii        = mobility.along(pair, pair.normal, effective_mass_factor);
+        pair.normal_force        = A_ii > 0. ? std::max(0., -forward_gap / A_ii) : 0.;
+      }
+  }
+
+
+  // Forces, and again while the gaps that they lead to are not what the linear constraints promise.
+  void
+  Contact::solve_coupled(const NodalState &state)
+  {
+    constexpr unsigned int most_rounds = 4;
+    constexpr double tolerance         = 1e-7; // of gaps, relative to the cell size
+
+    coupled.solve(dx_free);
+    for (unsigned int round = 1; round < most_rounds; ++round)
+      {
+        if (Utilities::MPI::max(follow_segments(state), discretization.communicator()) <= tolerance)
+          return;
+        set_target_gaps(state);
+        coupled.solve(dx_free);
+      }
+  }
+
+
+  // While segments turn under a slave, n . G dx + g misses a part of second order of the gap that
+  // the step reaches. Measures it for all pairs that may close; returns by how much of the cell
+  // size it is not what the solution counted on.
+  double
+  Contact::follow_segments(const NodalState &state)
+  {
+    if (searches.empty())
+      return 0.;
+    const auto &dx_contact = coupled.increments();
+    x_reached              = x;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      x_reached.add(i, dx_free[i] + dx_contact[i]);
+
+    double largest = 0.;
+    for (ContactPair *const pair : coupled.participants())
+      {
+        double reached;
+        if (pair->n_nodes == 1 || pair->slot > 0 ||
+            !searches[pair->search].gap_at(x_reached, *pair, reached))
+          continue;
+        const auto motion      = pair->relative(dx_free) + pair->relative(dx_contact);
+        const double bound     = 0.5 * motion.norm(); // whatever is beyond is another partner
+        const double linear    = pair->gap + pair->normal * motion;
+        const double curvature = std::clamp(reached - linear, -bound, bound);
+        const double allowed   = std::min(0., pair->gap + release(*pair, state));
+        if (pair->normal_force > 0. || linear + curvature < allowed)
+          largest = std::max(largest, std::abs(curvature - pair->curvature) / pair->size);
+        pair->curvature = curvature;
+      }
+    return largest;
+  }
+
+
+  // mu at the slip speed of the increment that led here
+  double
+  Contact::friction_coefficient(const ContactPair &pair, const NodalState &state) const
+  {
+    const Coulomb &friction = law_of(pair).friction;
+    if (friction.static_coefficient == friction.kinetic_coefficient)
+      return friction.static_coefficient;
+    return friction.coefficient(pair.tangential_part(pair.relative(dx)).norm() / state.dt);
+  }
+
+
+  void
+  Contact::resolve_friction(const NodalState &state, const double effective_mass_factor)
+  {
+    if (solver.type == ContactSolver::Type::coupled)
+      {
+        if (coupled.has_friction())
+          solve_coupled(state);
+        return;
+      }
+    for (auto &pair : pairs)
+      if (pair.normal_force > 0.)
+        decoupled_friction(pair, state, effective_mass_factor);
+  }
+
+
+  void
+  Contact::decoupled_friction(ContactPair &pair,
+                              const NodalState &state,
+                              const double effective_mass_factor)
+  {
+    const double mu = friction_coefficient(pair, state);
+    if (mu == 0.)
+      return;
+    Tensor<1, 3> slip = pair.relative(dx_free);
+    // In the starting step v_0 is given: only the increment can be made to vanish.
+    if (law_of(pair).stick == ContactLaw::Stick::central && state.step > 0)
+      slip += (state.dt_next / state.dt) * pair.relative(dx); // 2 dt' v~ = dt'/dt dx
+    slip              = pair.tangential_part(slip);
+    const double size = slip.norm();
+    const double A_ii = size > 0. ? mobility.along(pair, slip / size, effective_mass_factor) : 0.;
+    pair.sticks       = size == 0.;
+    if (!(A_ii > 0.))
+      return;
+    const auto result     = Coulomb::tangential_force(-slip / A_ii, mu * pair.normal_force);
+    pair.tangential_force = result.force;
+    pair.sticks           = result.sticks;
+  }
+
+
+  void
+  Contact::add_increments(NodalState &state, const double effective_mass_factor)
+  {
+    contributions.clear();
+    for (const auto &pair : pairs)
+      if (pair.normal_force > 0.)
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          contributions.push_back({nodes.id(pair.nodes[k]),
+                                   pair.interface,
+                                   pair.slave_id,
+                                   pair.at_node(k, pair.normal_force * pair.normal),
+                                   pair.at_node(k, pair.tangential_force)});
+    nodes.send_to_owners(contributions);
+
+    forces.clear();
+    for (const auto &contribution : contributions)
+      {
+        const unsigned int node = nodes.local_node(nodes.number(contribution.node));
+        if (forces.empty() || forces.back().node != node)
+          forces.push_back({node, {}, {}});
+        forces.back().normal += contribution.normal;
+        forces.back().tangential += contribution.tangential;
+      }
+    for (const auto &force : forces)
+      {
+        const auto increment = (force.normal + force.tangential) /
+                               (discretization.mass[force.node] * effective_mass_factor);
+        for (unsigned int d = 0; d < 3; ++d)
+          state.dx_next.local_element(3 * force.node + d) += increment[d];
+      }
+  }
+
+
+  Contact::Work
+  Contact::work(const NodalVector &increment) const
+  {
+    Work sum;
+    for (const auto &force : forces)
+      {
+        const auto step = at_node(increment, force.node);
+        sum.normal += force.normal * step;
+        sum.tangential += force.tangential * step;
+      }
+    return sum;
+  }
+} // namespace akmon

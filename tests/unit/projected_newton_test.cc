@@ -1,0 +1,520 @@
+#include <akmon/contact/projected_newton.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "support/report.h"
+
+// The solver of the coupled contact problem alone: small problems, regular and singular, with
+// normals in all directions. Without friction against the enumeration of all active sets, with
+// friction against the conditions of Signorini and Coulomb, and against a plain projected gradient
+// run to the end.
+
+namespace
+{
+  using namespace akmon;
+  using namespace akmon::test;
+
+  using Vector = dealii::Tensor<1, 3>;
+  using Frame  = dealii::Tensor<2, 3>;
+  using Matrix = std::vector<std::vector<double>>;
+
+  constexpr double tolerance = 1e-12;
+
+
+  double
+  norm_bound(const Matrix &A)
+  {
+    double largest = 0.;
+    for (const auto &row : A)
+      {
+        double sum = 0.;
+        for (const double a : row)
+          sum += std::abs(a);
+        largest = std::max(largest, sum);
+      }
+    return largest;
+  }
+
+
+  // A frame whose first row is a vector.
+  Frame
+  frame_of(const Vector &n)
+  {
+    Frame frame;
+    frame[0] = n / n.norm();
+    frame[1] = cross_product_3d(frame[0], Vector({1., 0.3, 0.}));
+    frame[1] /= frame[1].norm();
+    frame[2] = cross_product_3d(frame[0], frame[1]);
+    return frame;
+  }
+
+
+  // w = A t + b with the blocks A_ij = S_ij F_i F_j^T, S = G G^T scaled to a unit diagonal, F the
+  // frames of the pairs, and b = F G f + gaps along the normals, gaps >= 0: bounded below whatever
+  // the rank of G is.
+  struct Problem
+  {
+    Problem(const unsigned int n,
+            const unsigned int n_repeated,
+            const unsigned int seed,
+            const bool flat = false)
+      : S(n, std::vector<double>(n))
+      , b(n)
+      , frame(n)
+    {
+      std::mt19937 random(seed);
+      std::normal_distribution<double> gauss;
+      const auto vector = [&]() { return Vector({gauss(random), gauss(random), gauss(random)}); };
+      Matrix G(n, std::vector<double>(n));
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          for (auto &g : G[i])
+            g = gauss(random);
+          frame[i] = frame_of(Vector({0., 0., 1.}) + (flat ? 0. : 0.2) * vector());
+        }
+      for (unsigned int i = 0; i < n_repeated; ++i)
+        {
+          G[n - 1 - i]     = G[i];
+          frame[n - 1 - i] = frame[i];
+        }
+      for (auto &row : G)
+        {
+          double square = 0.;
+          for (const double g : row)
+            square += g * g;
+          for (double &g : row)
+            g /= std::sqrt(square);
+        }
+      std::vector<Vector> f(n);
+      for (auto &f_k : f)
+        f_k = vector();
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          // Every other gap is closed; rows that repeat each other may have different gaps.
+          b[i][0] = i % 2 ? 0. : 0.1 * std::abs(gauss(random));
+          for (unsigned int k = 0; k < n; ++k)
+            b[i] += G[i][k] * (frame[i] * f[k]);
+          for (unsigned int j = 0; j < n; ++j)
+            for (unsigned int k = 0; k < n; ++k)
+              S[i][j] += G[i][k] * G[j][k];
+        }
+    }
+
+    void
+    apply(const std::vector<Vector> &t, std::vector<Vector> &y) const
+    {
+      for (std::size_t i = 0; i < S.size(); ++i)
+        {
+          y[i] = Vector();
+          for (std::size_t j = 0; j < S.size(); ++j)
+            y[i] += S[i][j] * (frame[i] * (t[j] * frame[j]));
+        }
+    }
+
+    std::vector<Vector>
+    relative_motion(const std::vector<Vector> &t) const
+    {
+      std::vector<Vector> w(t.size());
+      apply(t, w);
+      for (std::size_t i = 0; i < t.size(); ++i)
+        w[i] += b[i];
+      return w;
+    }
+
+    std::vector<double>
+    gaps(const std::vector<Vector> &t) const
+    {
+      std::vector<double> result;
+      for (const auto &w_i : relative_motion(t))
+        result.push_back(w_i[0]);
+      return result;
+    }
+
+    Matrix S;
+    std::vector<Vector> b;
+    std::vector<Frame> frame;
+  };
+
+
+  // Cholesky's solution of A_nn t_n = -b_n on the set of bits; false if A_nn is singular there.
+  bool
+  solve_on_set(const Problem &problem, const unsigned int bits, std::vector<Vector> &t)
+  {
+    std::vector<unsigned int> set;
+    for (unsigned int i = 0; i < problem.b.size(); ++i)
+      if (bits & (1u << i))
+        set.push_back(i);
+    const unsigned int m = set.size();
+    Matrix L(m, std::vector<double>(m));
+    std::vector<double> y(m);
+    for (unsigned int i = 0; i < m; ++i)
+      {
+        for (unsigned int j = 0; j <= i; ++j)
+          {
+            double sum = problem.S[set[i]][set[j]] *
+                         (problem.frame[set[i]][0] * problem.frame[set[j]][0]);
+            for (unsigned int k = 0; k < j; ++k)
+              sum -= L[i][k] * L[j][k];
+            if (i == j && sum < 1e-10)
+              return false;
+            L[i][j] = i == j ? std::sqrt(sum) : sum / L[j][j];
+          }
+        y[i] = -problem.b[set[i]][0];
+        for (unsigned int k = 0; k < i; ++k)
+          y[i] -= L[i][k] * y[k];
+        y[i] /= L[i][i];
+      }
+    t.assign(problem.b.size(), Vector());
+    for (unsigned int i = m; i-- > 0;)
+      {
+        for (unsigned int k = i + 1; k < m; ++k)
+          y[i] -= L[k][i] * y[k];
+        y[i] /= L[i][i];
+        t[set[i]] = Vector({y[i], 0., 0.});
+      }
+    return true;
+  }
+
+
+  // A solution without friction by trying all active sets: there is one that is regular.
+  std::vector<Vector>
+  enumerate(const Problem &problem)
+  {
+    std::vector<Vector> t;
+    for (unsigned int set = 0; set < (1u << problem.b.size()); ++set)
+      if (solve_on_set(problem, set, t))
+        {
+          const auto w    = problem.gaps(t);
+          bool admissible = true;
+          for (std::size_t i = 0; i < t.size(); ++i)
+            admissible = admissible && t[i][0] >= -1e-11 && w[i] >= -1e-11;
+          if (admissible)
+            return t;
+        }
+    ADD_FAILURE() << "no active set";
+    return t;
+  }
+
+
+  struct Diagonal
+  {
+    void
+    reinit(const std::vector<FreeDirections> &new_free)
+    {
+      free = new_free;
+    }
+
+    void
+    apply(const std::vector<Vector> &r, std::vector<Vector> &z) const
+    {
+      for (std::size_t i = 0; i < r.size(); ++i)
+        z[i] = r[i] - (free[i].curvature / (1. + free[i].curvature) * (free[i].along * r[i])) *
+                        free[i].along;
+    }
+
+    std::vector<FreeDirections> free;
+  };
+
+
+  struct Result
+  {
+    unsigned int n_applications;
+    double residual;
+    bool converged;
+  };
+
+
+  Result
+  solve(const Problem &problem,
+        const std::vector<double> &friction,
+        std::vector<Vector> &t,
+        const unsigned int limit = 2000)
+  {
+    struct Operator
+    {
+      void
+      apply(const std::vector<Vector> &tau, std::vector<Vector> &y) const
+      {
+        problem.apply(tau, y);
+      }
+
+      void
+      limits(const std::vector<Vector> &tau, std::vector<double> &radius) const
+      {
+        for (std::size_t i = 0; i < tau.size(); ++i)
+          radius[i] = friction[i] * tau[i][0];
+      }
+
+      const Problem &problem;
+      const std::vector<double> &friction;
+    };
+    Operator op{problem, friction};
+    Diagonal diagonal;
+    using Solver = ProjectedNewton<Operator, Diagonal>;
+    Solver solver(op, diagonal, MPI_COMM_SELF, tolerance, limit);
+    const bool any    = std::any_of(friction.begin(), friction.end(), [](const double mu) {
+      return mu > 0.;
+    });
+    const auto result = solver.solve({problem.b,
+                                      std::vector<double>(t.size(), 1.),
+                                      norm_bound(problem.S),
+                                      any,
+                                      1e-7},
+                                     t);
+    return {result.n_applications, result.residual, result.converged};
+  }
+
+
+  Result
+  solve(const Problem &problem, std::vector<Vector> &t, const unsigned int limit = 2000)
+  {
+    return solve(problem, std::vector<double>(t.size(), 0.), t, limit);
+  }
+
+
+  // Number of pairs and how many of them repeat others.
+  class Complementarity : public testing::TestWithParam<std::pair<unsigned int, unsigned int>>
+  {
+  };
+
+
+  TEST_P(Complementarity, agrees_with_the_enumeration_of_active_sets)
+  {
+    const auto [n, n_repeated] = GetParam();
+    unsigned int most = 0, sum = 0;
+    for (unsigned int seed = 1; seed <= 50; ++seed)
+      {
+        const Problem problem(n, n_repeated, seed);
+        std::vector<Vector> t(n);
+        const auto result = solve(problem, t);
+        ASSERT_TRUE(result.converged) << seed << ": residual " << result.residual;
+        const auto w = problem.gaps(t), expected = problem.gaps(enumerate(problem));
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const double t_n = t[i][0];
+            EXPECT_GE(t_n, 0.) << seed;
+            EXPECT_EQ(std::hypot(t[i][1], t[i][2]), 0.) << seed;
+            EXPECT_GE(w[i], -2. * tolerance) << seed;
+            EXPECT_LE(std::min(t_n, w[i]), 1e-10) << seed;
+            EXPECT_NEAR(w[i], expected[i], 1e-9) << seed;
+          }
+        most = std::max(most, result.n_applications);
+        sum += result.n_applications;
+      }
+    report("applications, mean", sum / 50.);
+    report("applications, most", most);
+  }
+
+
+  TEST_P(Complementarity, starts_warm)
+  {
+    const auto [n, n_repeated] = GetParam();
+    const Problem problem(n, n_repeated, 7);
+    std::vector<Vector> t(n);
+    const auto cold = solve(problem, t);
+
+    // From the solution: not more than from nothing.
+    std::vector<Vector> again = t;
+    EXPECT_LE(solve(problem, again).n_applications, cold.n_applications);
+
+    // From close by: not more than from nothing, and the same gaps from wherever.
+    auto close = problem;
+    for (auto &b : close.b)
+      b *= 1. + 1e-6;
+    again           = t;
+    const auto warm = solve(close, again);
+    EXPECT_LE(warm.n_applications, cold.n_applications);
+    for (const double start : {3., -3.})
+      {
+        for (unsigned int i = 0; i < n; ++i)
+          again[i] = Vector({start, 0., 0.});
+        ASSERT_TRUE(solve(problem, again).converged);
+        const auto w = problem.gaps(t), w_again = problem.gaps(again);
+        for (unsigned int i = 0; i < n; ++i)
+          EXPECT_NEAR(w[i], w_again[i], 1e-10);
+      }
+  }
+
+
+  INSTANTIATE_TEST_SUITE_P(Sizes,
+                           Complementarity,
+                           testing::Values(std::make_pair(1u, 0u),
+                                           std::make_pair(2u, 1u),
+                                           std::make_pair(5u, 0u),
+                                           std::make_pair(8u, 0u),
+                                           std::make_pair(8u, 3u),
+                                           std::make_pair(10u, 5u)));
+
+
+  TEST(Complementarity, stops_at_the_limit_and_says_so)
+  {
+    const Problem problem(10, 0, 3);
+    std::vector<Vector> t(10);
+    const auto result = solve(problem, t, 3);
+    EXPECT_FALSE(result.converged);
+    EXPECT_GT(result.residual, tolerance);
+    EXPECT_LE(result.n_applications, 5u); // the gradient at the end of a step comes on top
+    for (unsigned int i = 0; i < 10; ++i)
+      EXPECT_GE(t[i][0], 0.);
+  }
+
+
+  TEST(Complementarity, of_nothing_is_solved)
+  {
+    const Problem problem(0, 0, 1);
+    std::vector<Vector> t;
+    EXPECT_TRUE(solve(problem, t).converged);
+  }
+
+
+  // Of a solution with friction; lengths and forces are of the order of one.
+  void
+  expect_conditions(const Problem &problem,
+                    const std::vector<double> &friction,
+                    const std::vector<Vector> &t,
+                    const unsigned int seed)
+  {
+    const auto w = problem.relative_motion(t);
+    for (std::size_t i = 0; i < t.size(); ++i)
+      {
+        const double t_n = t[i][0], w_n = w[i][0], limit = friction[i] * t_n;
+        const Vector t_tau({0., t[i][1], t[i][2]}), w_tau({0., w[i][1], w[i][2]});
+        EXPECT_GE(t_n, 0.) << seed;
+        EXPECT_GE(w_n, -1e-11) << seed;
+        EXPECT_LE(std::min(t_n, w_n), 1e-10) << seed;
+        EXPECT_LE(t_tau.norm(), limit * (1. + 1e-12) + 1e-14) << seed;
+        if (t_tau.norm() < limit * (1. - 1e-9))
+          {
+            EXPECT_LE(w_tau.norm(), 1e-10) << seed;
+          }
+        else // opposes: |r w_tau + |w_tau| t_tau| = 0
+          {
+            EXPECT_LE((limit * w_tau + w_tau.norm() * t_tau).norm(), 1e-9 * (1. + limit)) << seed;
+          }
+      }
+  }
+
+
+  std::vector<double>
+  coefficients(const unsigned int n, const unsigned int seed)
+  {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<double> uniform(0., 0.8);
+    std::vector<double> friction(n);
+    for (unsigned int i = 0; i < n; ++i)
+      friction[i] = i == 2 ? 0. : uniform(random);
+    return friction;
+  }
+
+
+  TEST_P(Complementarity, with_friction_satisfies_signorini_and_coulomb)
+  {
+    const auto [n, n_repeated] = GetParam();
+    unsigned int most = 0, sum = 0;
+    for (unsigned int seed = 1; seed <= 50; ++seed)
+      for (const bool flat : {true, false})
+        {
+          const Problem problem(n, n_repeated, seed, flat);
+          const auto friction = coefficients(n, seed);
+          std::vector<Vector> t(n);
+          const auto result = solve(problem, friction, t);
+          ASSERT_TRUE(result.converged)
+            << seed << (flat ? " flat" : "") << ": residual " << result.residual;
+          expect_conditions(problem, friction, t, seed);
+          most = std::max(most, result.n_applications);
+          sum += result.n_applications;
+        }
+    report("applications, mean", sum / 100.);
+    report("applications, most", most);
+  }
+
+
+  TEST(Friction, agrees_with_a_plain_projected_gradient)
+  {
+    for (unsigned int seed = 1; seed <= 10; ++seed)
+      {
+        const unsigned int n = 6;
+        const Problem problem(n, seed % 3, seed, true);
+        const auto friction = coefficients(n, seed);
+        std::vector<Vector> t(n), plain(n), g(n);
+        ASSERT_TRUE(solve(problem, friction, t).converged);
+        FrictionCylinders set{std::vector<double>(n)};
+        const double step = 1. / norm_bound(problem.S);
+        for (unsigned int k = 0; k < 100000; ++k)
+          {
+            problem.apply(plain, g);
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                set.radius[i] = friction[i] * plain[i][0];
+                plain[i]      = set.project(i, plain[i] - step * (g[i] + problem.b[i]));
+              }
+          }
+        const auto w = problem.relative_motion(t), w_plain = problem.relative_motion(plain);
+        for (unsigned int i = 0; i < n; ++i)
+          EXPECT_LE((w[i] - w_plain[i]).norm(), 1e-8) << seed;
+      }
+  }
+
+
+  TEST(FrictionCylinders, project_and_measure)
+  {
+    const FrictionCylinders set{{5., 0.}};
+    EXPECT_LE((set.project(0, Vector({2., 6., 8.})) - Vector({2., 3., 4.})).norm(), 1e-15);
+    EXPECT_EQ(set.project(0, Vector({-3., 1., 2.})), Vector({0., 1., 2.}));
+    EXPECT_EQ(set.project(1, Vector({3., 1., 2.})), Vector({3., 0., 0.}));
+    EXPECT_FALSE(set.is_inside_circle(0, Vector({7., 3., 4.})));
+    EXPECT_TRUE(set.is_inside_circle(0, Vector({7., 3., 3.9})));
+
+    FreeDirections free;
+    free.tangential = FreeDirections::Tangential::disc;
+    const Vector t({3., 1., 2.}), p({0., -1., 0.5}), q({2., 0., 0.});
+    EXPECT_NEAR(set.tangential_size(t - set.longest_step(0, free, t, p) * p), 5., 1e-14);
+    EXPECT_GT(set.longest_step(0, free, t, p), 0.);
+    EXPECT_EQ(set.longest_step(0, free, t, q), 1.5);
+    EXPECT_GT(set.longest_step(0, free, t, -q), 1e300);
+    EXPECT_GT(set.longest_step(0, free, t, Vector()), 1e300);
+
+    // Along the circle by an angle of a half at most.
+    free.tangential = FreeDirections::Tangential::circle;
+    free.along      = Vector({0., 0.6, -0.8});
+    EXPECT_NEAR(set.longest_step(0, free, t, 10. * free.along), 0.25, 1e-15);
+  }
+
+
+  TEST(FrictionCylinders, have_faces)
+  {
+    using Tangential = FreeDirections::Tangential;
+    const FrictionCylinders set{{5., 0.}};
+    EXPECT_TRUE(set.face_at(0, Vector({1., 0., 0.})).normal);
+    EXPECT_FALSE(set.face_at(0, Vector()).normal);
+    EXPECT_EQ(set.face_at(1, Vector({3., 0., 0.})).tangential, Tangential::none);
+    EXPECT_EQ(set.face_at(0, Vector({1., 3., 0.})).tangential, Tangential::disc);
+    const Vector t({0., 3., 4.});
+    auto on_circle = set.face_at(0, t);
+    EXPECT_EQ(on_circle.tangential, Tangential::circle);
+
+    // The energy falls outwards and when the pair closes: it slips, and gets a force.
+    const Vector outwards({-1., -0.3, -0.4}), inwards({1., 0.3, 0.4});
+    EXPECT_NEAR(set.pressing(t, outwards), 0.5, 1e-15);
+    EXPECT_EQ(set.released(t, outwards, on_circle).tangential, Tangential::circle);
+    EXPECT_TRUE(set.released(t, outwards, on_circle).normal);
+    // Inwards and when it opens: it sticks, and gets none.
+    EXPECT_EQ(set.released(t, inwards, on_circle).tangential, Tangential::disc);
+    EXPECT_FALSE(set.released(t, inwards, on_circle).normal);
+
+    set.update_circle(0, t, outwards, on_circle);
+    EXPECT_NEAR(on_circle.curvature, 0.5 / 5., 1e-15);
+    EXPECT_NEAR(std::abs(on_circle.along * Vector({0., -0.8, 0.6})), 1., 1e-15);
+    const Vector v({3., 1., 2.});
+    EXPECT_LE((set.restrict_to(on_circle, v) - (on_circle.along * v) * on_circle.along).norm(),
+              1e-15);
+    on_circle.normal = true;
+    EXPECT_EQ(set.restrict_to(on_circle, v)[0], 3.);
+  }
+} // namespace
