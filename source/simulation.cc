@@ -11,6 +11,19 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    std::vector<RigidBody>
+    make_rigid_bodies(const Case &parameters)
+    {
+      std::vector<RigidBody> bodies;
+      for (const auto &obstacle : parameters.obstacles)
+        bodies.emplace_back(obstacle, parameters.body_force.acceleration);
+      return bodies;
+    }
+  } // namespace
+
+
   Simulation::Stages::Stages(StageTimer &timer)
     : predict(timer.add("integrator.predict"))
     , search(timer.add("contact.search"))
@@ -32,12 +45,13 @@ namespace akmon
     , discretization(parameters.bodies, parameters.materials, communicator)
     , state(discretization)
     , conditions(discretization, this->parameters.prescribed_motions)
+    , rigid_bodies(make_rigid_bodies(this->parameters))
     , external_forces(discretization, this->parameters.surface_loads, this->parameters.body_force)
     , internal_forces(discretization)
     , contact(discretization,
               this->parameters.contact_solver,
               this->parameters.contacts,
-              this->parameters.planes,
+              rigid_bodies,
               conditions)
     , integrator(discretization,
                  state,
@@ -68,7 +82,8 @@ namespace akmon
                                                          internal_forces,
                                                          external_forces,
                                                          conditions,
-                                                         contact});
+                                                         contact,
+                                                         rigid_bodies});
     wall_start = std::chrono::steady_clock::now();
     try
       {
@@ -116,6 +131,8 @@ namespace akmon
     choose_step();
     print_header();
     integrator.start(velocity_0, state.dt_next);
+    for (auto &body : rigid_bodies)
+      body.start(state.dt_next, integrator.damping_rate());
     const double c = integrator.effective_mass_factor();
     conditions.clear_reactions();
     conditions.apply(state, c);
@@ -137,6 +154,8 @@ namespace akmon
     {
       const StageTimer::Scope timing(stages.predict); // 1
       integrator.predict();
+      for (auto &body : rigid_bodies)
+        body.predict();
     }
     {
       const StageTimer::Scope timing(stages.search); // 2
@@ -156,6 +175,7 @@ namespace akmon
     {
       const StageTimer::Scope timing(stages.free_increment); // 4
       integrator.free_increment();
+      free_rigid_increments();
       conditions.clear_reactions();
       conditions.apply(state, integrator.effective_mass_factor());
     }
@@ -177,6 +197,14 @@ namespace akmon
       monitor->observe(parameters.time.finished(state.time));
     }
     show_progress();
+  }
+
+
+  void
+  Simulation::free_rigid_increments()
+  {
+    for (auto &body : rigid_bodies)
+      body.free_increment(state.time, state.dt, state.dt_next, integrator.damping_rate());
   }
 
 
@@ -247,6 +275,9 @@ namespace akmon
        {"limited by", limit},
        {"end", shortest_text(parameters.time.end)},
        {"output", parameters.output_directory}});
+    for (const auto &obstacle : parameters.obstacles)
+      for (const auto &repair : obstacle.repairs)
+        screen.warning(repair);
     if (state.dt_next > critical)
       screen.warning("the time step is above the critical step " + shortest_text(critical) +
                      " of the smallest cell");

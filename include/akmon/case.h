@@ -6,6 +6,7 @@
 #include <akmon/model/body.h>
 #include <akmon/model/essential_conditions.h>
 #include <akmon/output/output_parameters.h>
+#include <akmon/rigid/obstacle.h>
 #include <akmon/time/step_control.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -30,7 +31,7 @@ namespace akmon
     BodyForce body_force;
     ContactSolver contact_solver;
     std::vector<SurfaceContact> contacts;
-    std::vector<RigidPlane> planes;
+    std::vector<Obstacle> obstacles;
     std::vector<Probe> probes;
     OutputParameters output;
     std::string as_used; ///< every parameter, in the form of a prm file

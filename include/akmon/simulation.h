@@ -64,6 +64,8 @@ namespace akmon
     void
     stop();
     void
+    free_rigid_increments();
+    void
     choose_step();
     void
     initial_velocity();
@@ -82,6 +84,7 @@ namespace akmon
     Discretization discretization;
     NodalState state;
     EssentialConditions conditions;
+    std::vector<RigidBody> rigid_bodies;
     ExternalForces external_forces;
     InternalForces internal_forces;
     Contact contact;

@@ -68,6 +68,8 @@ namespace akmon
   {
     const auto coefficient = [&](const std::size_t i, const unsigned int k) {
       const ContactPair &pair = *pairs[i];
+      if (k >= pair.n_points())
+        return std::abs(pair.weights[k]) * pair.radii[k - pair.n_points()].norm() * scales[i];
       const double of_lever = pair.levered && k > 0 ? pair.lever.norm() * pair.arms[k - 1].norm() :
                                                       0.;
       return (std::abs(pair.weights[k]) + of_lever) * scales[i];
@@ -108,8 +110,9 @@ namespace akmon
       result.push_back(!pair->levered && std::all_of(pair->nodes.begin(),
                                                      pair->nodes.begin() + pair->n_nodes,
                                                      [&](const auto number) {
-                                                       return field[number][0] == 1. &&
-                                                              mobility.is_free(number);
+                                                       return mobility.is_held(number) ||
+                                                              (field[number][0] == 1. &&
+                                                               mobility.is_free(number));
                                                      }));
     return result;
   }
@@ -140,6 +143,8 @@ namespace akmon
       }
     nodes.add_to_owners(field);
     for (unsigned int number = 0; number < nodes.n_owned(); ++number)
+      to_increment(number);
+    for (unsigned int number = nodes.first_common(); number < nodes.size(); ++number)
       to_increment(number);
     nodes.update_ghosts(field);
   }
