@@ -96,13 +96,12 @@ namespace akmon
                const ContactPair &pair,
                const Tensor<1, 3> &x)
   {
-    constexpr double alike = 0.9; // cosine
-
     const auto R     = pose.orientation.matrix();
     const auto X     = transpose(R) * (x - pose.place);
     const auto point = shape.closest(X);
-    return point.normal * pair.plane_normal > alike ? point.distance :
-                                                      pair.plane_normal * X - pair.plane_offset;
+    return pair.slot == 0 && point.normal * pair.plane_normal > 0. ?
+             point.distance :
+             pair.plane_normal * X - pair.plane_offset;
   }
 
 

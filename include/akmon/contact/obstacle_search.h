@@ -119,8 +119,9 @@ namespace akmon
   closest_in_space(const RigidShape &shape, const Pose &pose, const dealii::Tensor<1, 3> &x);
 
   /**
-   * The gap of a node at @p x from the obstacle in a pose: of the closest point as long as it looks
-   * the way the pair does, else of the plane that the pair was found with.
+   * The gap of a node at @p x from the obstacle in a pose: of the closest point, unless it looks
+   * the other way, as on the back of a thin wall; there, and for the further sides of a concave
+   * corner, of the plane that the pair was found with.
    */
   double
   obstacle_gap(const RigidShape &shape,

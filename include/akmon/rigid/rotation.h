@@ -20,7 +20,8 @@ namespace akmon
   }
 
 
-  /// A rotation as unit quaternion (w, v): it stays one however many steps are put together.
+  /// A rotation as quaternion (w, v) of any length: it stays one however many steps are put
+  /// together.
   class Orientation
   {
   public:
@@ -81,8 +82,9 @@ namespace akmon
       dealii::Tensor<2, 3> one;
       for (unsigned int d = 0; d < 3; ++d)
         one[d][d] = 1.;
-      const auto V = cross_matrix(v);
-      return one + (2. * w) * V + 2. * (V * V);
+      const auto V       = cross_matrix(v);
+      const double scale = 2. / (w * w + v * v); // exact for turns by a quarter and a half
+      return one + scale * (w * V + V * V);
     }
 
   private:
@@ -90,9 +92,11 @@ namespace akmon
       : w(w_)
       , v(v_)
     {
-      const double size = std::sqrt(w * w + v * v);
-      w /= size;
-      v /= size;
+      const double square = w * w + v * v;
+      if (square < 4. && square > 0.25)
+        return;
+      w /= std::sqrt(square);
+      v /= std::sqrt(square);
     }
 
     double w = 1.;
