@@ -44,14 +44,15 @@ namespace akmon
     double least_radius  = std::numeric_limits<double>::max();
     for (const auto &search : searches)
       least_radius = std::min(least_radius, search.radius());
-    // Two surfaces can approach each other at twice the speed of the faster one, and may do
-    // several times that when they are pushed.
-    double reach = 8. * fastest;
+    // Two surfaces can approach each other at twice the speed of the faster one.
     moved += 2. * fastest;
     travelled += 2. * fastest;
+    const double reach_of_obstacles = std::max(8. * fastest, reach_of_step(state, 0.));
+    double reach                    = searches.empty() ?
+                                        reach_of_obstacles :
+                                        std::max(reach_of_obstacles, reach_of_step(state, least_radius));
     if (!prepared || moved + reach > least_radius)
       rebuild_candidates(state, reach);
-    const double reach_of_obstacles = reach;
     if (state.step == 0) // bodies may be about to start
       for (const auto &search : searches)
         reach = std::max(reach, search.radius());
@@ -90,6 +91,18 @@ namespace akmon
           field.set(first, increment.centre);
           field.set(first + 1, increment.rotation);
         }
+  }
+
+
+  // What the coming step may move surfaces by, whose forces are not known yet: several times what
+  // any node does, surfaces at rest that are pushed from inside included, and part of a cell where
+  // all are at rest.
+  double
+  Contact::reach_of_step(const NodalState &state, const double least_radius) const
+  {
+    constexpr double part = 0.02;
+    const double fastest  = std::max(state.dx.linfty_norm(), state.dx_next.linfty_norm());
+    return std::max(8. * fastest, part * least_radius);
   }
 
 

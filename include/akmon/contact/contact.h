@@ -118,6 +118,8 @@ namespace akmon
     refuse_initial_overlap(const NodalState &state) const;
 
   private:
+    double
+    reach_of_step(const NodalState &state, const double least_radius) const;
     void
     rebuild_candidates(const NodalState &state, const double reach);
     double
