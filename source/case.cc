@@ -37,7 +37,7 @@ namespace akmon
          {"Prescribed motion", "Names of the prescribed motions", &PrescribedMotion::declare},
          {"Loads", "Names of the surface loads", &SurfaceLoad::declare},
          {"Contact", "Names of the contacts between bodies", &SurfaceContact::declare},
-         {"Obstacles", "Names of the rigid planes", &RigidPlane::declare},
+         {"Obstacles", "Names of the rigid obstacles and tools", &Obstacle::declare},
          {"Probes", "Names of the probes", &Probe::declare}};
       return sections;
     }
@@ -293,9 +293,9 @@ namespace akmon
       result.surface_loads      = parse_items<SurfaceLoad>(prm, names, "Loads");
       parse_section(prm, "Body force", result.body_force);
       parse_section(prm, "Contact solver", result.contact_solver);
-      result.contacts = parse_items<SurfaceContact>(prm, names, "Contact");
-      result.planes   = parse_items<RigidPlane>(prm, names, "Obstacles");
-      result.probes   = parse_items<Probe>(prm, names, "Probes");
+      result.contacts  = parse_items<SurfaceContact>(prm, names, "Contact");
+      result.obstacles = parse_items<Obstacle>(prm, names, "Obstacles");
+      result.probes    = parse_items<Probe>(prm, names, "Probes");
       parse_section(prm, "Output", result.output);
       parse_section(prm, "Checkpoint", result.checkpoint);
       check_materials(result);

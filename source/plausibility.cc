@@ -251,22 +251,27 @@ namespace akmon
                                rounded(std::sqrt(square)) +
                                " apart, and nothing moves further than " + rounded(way));
         }
-      for (const auto &plane : parameters.planes)
+      for (const auto &obstacle : parameters.obstacles)
         {
-          const Extent surface = extent_of_surfaces("Obstacles/" + plane.name,
+          // Of a box's points a corner is closest to a plane; other shapes are nearby anyway.
+          if (obstacle.motion != Obstacle::Motion::fixed || std::isfinite(obstacle.shape->radius()))
+            continue;
+          const Extent surface = extent_of_surfaces("Obstacles/" + obstacle.name,
                                                     "Surfaces",
-                                                    plane.slaves,
+                                                    obstacle.slaves,
                                                     velocity);
+          const auto rotation  = obstacle.start.orientation.matrix();
           double gap           = std::numeric_limits<double>::max();
           for (unsigned int corner = 0; corner < 8; ++corner)
             {
-              Point<3> x;
+              Tensor<1, 3> x;
               for (unsigned int d = 0; d < 3; ++d)
                 x[d] = (corner >> d) % 2 ? surface.upper[d] : surface.lower[d];
-              gap = std::min(gap, plane.gap(x));
+              const auto X = (x - obstacle.start.place) * rotation;
+              gap          = std::min(gap, obstacle.shape->closest(X).distance);
             }
           if (gap > way)
-            warnings.push_back("obstacle '" + plane.name + "' can never be touched: it is " +
+            warnings.push_back("obstacle '" + obstacle.name + "' can never be touched: it is " +
                                rounded(gap) + " away, and nothing moves further than " +
                                rounded(way));
         }
@@ -293,8 +298,8 @@ namespace akmon
                                    [](const auto &contact) { return contact.slaves; }) ||
                                any(parameters.contacts,
                                    [](const auto &contact) { return contact.masters; }) ||
-                               any(parameters.planes,
-                                   [](const auto &plane) { return plane.slaves; });
+                               any(parameters.obstacles,
+                                   [](const auto &obstacle) { return obstacle.slaves; });
           if (held || touched || loaded)
             continue;
           if (weight)

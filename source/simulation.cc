@@ -14,6 +14,19 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    std::vector<RigidBody>
+    make_rigid_bodies(const Case &parameters)
+    {
+      std::vector<RigidBody> bodies;
+      for (const auto &obstacle : parameters.obstacles)
+        bodies.emplace_back(obstacle, parameters.body_force.acceleration);
+      return bodies;
+    }
+  } // namespace
+
+
   Simulation::Stages::Stages(StageTimer &timer)
     : predict(timer.add("integrator.predict"))
     , search(timer.add("contact.search"))
@@ -37,14 +50,18 @@ namespace akmon
     , discretization(parameters.bodies, parameters.materials, communicator)
     , state(discretization)
     , conditions(discretization, this->parameters.prescribed_motions)
+    , rigid_bodies(make_rigid_bodies(this->parameters))
     , external_forces(discretization, this->parameters.surface_loads, this->parameters.body_force)
     , internal_forces(discretization)
     , contact(discretization,
               this->parameters.contact_solver,
               this->parameters.contacts,
-              this->parameters.planes,
+              rigid_bodies,
               conditions)
-    , integrator(discretization, state, parameters.body_force.damping)
+    , integrator(discretization,
+                 state,
+                 parameters.body_force.damping,
+                 parameters.body_force.damping_end)
     , n_cells(discretization.triangulation.n_global_active_cells())
     , stages(timer)
   {
@@ -72,7 +89,8 @@ namespace akmon
                                                          internal_forces,
                                                          external_forces,
                                                          conditions,
-                                                         contact});
+                                                         contact,
+                                                         rigid_bodies});
     wall_start = last_checkpoint = std::chrono::steady_clock::now();
     if (!checkpoint.empty())
       restart(checkpoint);
@@ -109,9 +127,11 @@ namespace akmon
       {
         const unsigned int body_index = discretization.body_of_node[node];
         const Body &body              = discretization.get_bodies()[body_index];
-        const auto arm                = at_node(discretization.reference, node) -
-                         discretization.centre_of(body_index);
-        const auto v = body.velocity + cross_product_3d(body.spin, arm);
+        const Point<3> X(at_node(discretization.reference, node));
+        auto v = body.velocity +
+                 cross_product_3d(body.spin, X - discretization.centre_of(body_index));
+        if (!body.velocity_field.identically_zero())
+          v += body.velocity_field.vector(X, 0.);
         for (unsigned int d = 0; d < 3; ++d)
           velocity_0.local_element(3 * node + d) = v[d];
       }
@@ -140,6 +160,8 @@ namespace akmon
     agree_on_step();
     print_header();
     integrator.start(velocity_0, state.dt_next);
+    for (auto &body : rigid_bodies)
+      body.start(state.dt_next, integrator.damping_rate());
     const double c = integrator.effective_mass_factor();
     conditions.clear_reactions();
     conditions.apply(state, c);
@@ -162,6 +184,8 @@ namespace akmon
     {
       const StageTimer::Scope timing(stages.predict); // 1
       integrator.predict();
+      for (auto &body : rigid_bodies)
+        body.predict();
     }
     {
       const StageTimer::Scope timing(stages.search); // 2
@@ -180,6 +204,7 @@ namespace akmon
     {
       const StageTimer::Scope timing(stages.free_increment); // 4
       integrator.free_increment();
+      free_rigid_increments();
       conditions.clear_reactions();
       conditions.apply(state, integrator.effective_mass_factor());
     }
@@ -205,6 +230,14 @@ namespace akmon
       monitor->write(parameters.time.finished(state.time));
     }
     show_progress();
+  }
+
+
+  void
+  Simulation::free_rigid_increments()
+  {
+    for (auto &body : rigid_bodies)
+      body.free_increment(state.time, state.dt, state.dt_next, integrator.damping_rate());
   }
 
 
@@ -244,6 +277,9 @@ namespace akmon
        {"limited by", limit},
        {"end", shortest_text(parameters.time.end)},
        {"output", parameters.output_directory}});
+    for (const auto &obstacle : parameters.obstacles)
+      for (const auto &repair : obstacle.repairs)
+        screen.warning(repair);
     if (state.dt_next > critical)
       screen.warning("the time step is above the critical step " + shortest_text(critical) +
                      " of the smallest cell");

@@ -80,6 +80,10 @@ namespace akmon
         state.save(checkpoint);
         internal_forces.save(checkpoint);
         contact.save(checkpoint);
+        std::vector<double> of_rigid_bodies = {double(rigid_bodies.size())};
+        for (auto &body : rigid_bodies)
+          body.visit_state([&](const double x) { of_rigid_bodies.push_back(x); });
+        checkpoint.numbers("rigid_bodies", of_rigid_bodies);
         monitor->save(checkpoint);
         checkpoint.finish();
       }
@@ -103,6 +107,17 @@ namespace akmon
       {
         screen.warning(std::string("the last state is not complete on the disk: ") + error.what());
       }
+  }
+
+
+  void
+  Simulation::restore_rigid_bodies(const std::vector<double> &numbers)
+  {
+    if (numbers.at(0) != rigid_bodies.size())
+      throw std::runtime_error("its obstacles are not those of the case");
+    std::size_t next = 1;
+    for (auto &body : rigid_bodies)
+      body.visit_state([&](double &x) { x = numbers.at(next++); });
   }
 
 
@@ -132,6 +147,7 @@ namespace akmon
         n_eroded_here = internal_forces.n_eroded();
         n_eroded      = Utilities::MPI::sum(n_eroded_here, communicator);
         contact.restore(reader);
+        restore_rigid_bodies(reader.numbers("rigid_bodies"));
         monitor->restore(reader);
         checkpoint_tick.next = reader.numbers("checkpoint_tick").at(0);
         screen.recall(reader.text("warnings"));

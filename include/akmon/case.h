@@ -7,6 +7,7 @@
 #include <akmon/model/body.h>
 #include <akmon/model/essential_conditions.h>
 #include <akmon/output/output_parameters.h>
+#include <akmon/rigid/obstacle.h>
 #include <akmon/time/step_control.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -31,7 +32,7 @@ namespace akmon
     BodyForce body_force;
     ContactSolver contact_solver;
     std::vector<SurfaceContact> contacts;
-    std::vector<RigidPlane> planes;
+    std::vector<Obstacle> obstacles;
     std::vector<Probe> probes;
     OutputParameters output;
     CheckpointParameters checkpoint;

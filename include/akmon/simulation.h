@@ -75,9 +75,13 @@ namespace akmon
     void
     restart(const std::string &checkpoint);
     void
+    restore_rigid_bodies(const std::vector<double> &numbers);
+    void
     step();
     void
     stop(const ExitStatus status);
+    void
+    free_rigid_increments();
     void
     agree_on_step();
     SignalWatch::Request
@@ -113,6 +117,7 @@ namespace akmon
     Discretization discretization;
     NodalState state;
     EssentialConditions conditions;
+    std::vector<RigidBody> rigid_bodies;
     ExternalForces external_forces;
     InternalForces internal_forces;
     Contact contact;

@@ -11,28 +11,47 @@ namespace akmon
 {
   using namespace dealii;
 
+  // Over all ranks; of rigid bodies at the furthest slave node.
+  double
+  Contact::fastest_motion(const NodalState &state) const
+  {
+    double fastest = 0.;
+    for (const unsigned int node : surface_nodes)
+      fastest = std::max({fastest,
+                          at_node(state.dx, node).norm_square(),
+                          at_node(state.dx_next, node).norm_square()});
+    fastest = std::sqrt(fastest);
+    for (const auto &body : bodies)
+      {
+        if (!body.moves())
+          continue;
+        double furthest = std::min(body.parameters().shape->radius(), 1e300);
+        if (furthest == 1e300)
+          furthest = 0.;
+        for (const unsigned int node : surface_nodes)
+          furthest = std::max(furthest, (at_node(state.x, node) - body.centre()).norm());
+        for (const auto &motion : {body.increment_before(), body.next()})
+          fastest = std::max(fastest, motion.centre.norm() + furthest * motion.rotation.norm());
+      }
+    return Utilities::MPI::max(fastest, discretization.communicator());
+  }
+
+
   void
   Contact::search(const NodalState &state)
   {
-    double reach = 0.;
-    if (!searches.empty())
-      {
-        double fastest = 0., least_radius = std::numeric_limits<double>::max();
-        for (const unsigned int node : surface_nodes)
-          fastest = std::max({fastest,
-                              at_node(state.dx, node).norm_square(),
-                              at_node(state.dx_next, node).norm_square()});
-        fastest = std::sqrt(Utilities::MPI::max(fastest, discretization.communicator()));
-        // Two surfaces can approach each other at twice the speed of the faster one.
-        moved += 2. * fastest;
-        travelled += 2. * fastest;
-        for (const auto &search : searches)
-          least_radius = std::min(least_radius, search.radius());
-        reach = reach_of_step(state, least_radius);
-        if (moved + reach > least_radius)
-          prepared = false;
-      }
-    if (!prepared)
+    const double fastest = fastest_motion(state);
+    double least_radius  = std::numeric_limits<double>::max();
+    for (const auto &search : searches)
+      least_radius = std::min(least_radius, search.radius());
+    // Two surfaces can approach each other at twice the speed of the faster one.
+    moved += 2. * fastest;
+    travelled += 2. * fastest;
+    const double reach_of_obstacles = std::max(8. * fastest, reach_of_step(state, 0.));
+    double reach                    = searches.empty() ?
+                                        reach_of_obstacles :
+                                        std::max(reach_of_obstacles, reach_of_step(state, least_radius));
+    if (!prepared || moved + reach > least_radius)
       rebuild_candidates(state, reach);
     if (state.step == 0) // bodies may be about to start
       for (const auto &search : searches)
@@ -42,11 +61,36 @@ namespace akmon
     pairs.clear();
     nodes.gather(state.x, x);
     nodes.gather(state.dx, dx);
+    add_rigid_motions(dx, &RigidBody::increment_before);
     for (auto &search : searches)
       search.find_pairs(state.x, x, reach, travelled, pairs);
-    find_plane_pairs(state);
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      {
+        const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
+        obstacle_searches[i].find_pairs(nodes, x, first, reach_of_obstacles, travelled, pairs);
+        for (const bool reversed : {false, true})
+          for (const auto &touch : rigid_touches)
+            if (touch.get_interface() == contacts.size() + i)
+              touch.find_pairs(nodes, rigid_nodes, reversed, reach_of_obstacles, pairs);
+      }
     if (solver.type == ContactSolver::Type::coupled)
       warm_start(previous);
+  }
+
+
+  // The motion of the bodies' centres and their rotations, at their contact nodes.
+  void
+  Contact::add_rigid_motions(ContactNodes::Field &field,
+                             RigidIncrement (RigidBody::*motion)() const) const
+  {
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      if (bodies[i].moves())
+        {
+          const RigidIncrement increment = (bodies[i].*motion)();
+          const unsigned int first       = nodes.first_common() + rigid_nodes.first[i];
+          field.set(first, increment.centre);
+          field.set(first + 1, increment.rotation);
+        }
   }
 
 
@@ -82,26 +126,6 @@ namespace akmon
       search.build_candidates(nodes, state.x, x);
     moved    = 0.;
     prepared = true;
-  }
-
-
-  void
-  Contact::find_plane_pairs(const NodalState &state)
-  {
-    for (unsigned int i = 0; i < planes.size(); ++i)
-      for (const auto &[node, size] : plane_slaves[i])
-        {
-          ContactPair pair;
-          pair.interface  = contacts.size() + i;
-          pair.slave      = node;
-          pair.slave_id   = nodes.id_of_local(node);
-          pair.nodes[0]   = nodes.number(pair.slave_id);
-          pair.weights[0] = 1.;
-          pair.normal     = planes[i].normal;
-          pair.gap        = planes[i].gap(at_node(state.x, node));
-          pair.size       = size;
-          pairs.push_back(pair);
-        }
   }
 
 

@@ -16,13 +16,15 @@ namespace akmon
   {
     if (pair.interface < contacts.size())
       return contacts[pair.interface];
-    return planes[pair.interface - contacts.size()];
+    return bodies[pair.interface - contacts.size()].parameters();
   }
 
 
   double
   Contact::release(const ContactPair &pair, const NodalState &state) const
   {
+    if (pair.slave == numbers::invalid_unsigned_int) // rigid bodies know no wave speed
+      return solver.release_speed * pair.size;
     return solver.release_speed * state.dt_next *
            discretization.material_of(discretization.body_of_node[pair.slave])
              .dilatational_wave_speed();
@@ -44,6 +46,14 @@ namespace akmon
   Contact::resolve_normal(const NodalState &state, const double effective_mass_factor)
   {
     nodes.gather(state.dx_next, dx_free);
+    add_rigid_motions(dx_free, &RigidBody::next);
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      if (bodies[i].moves())
+        {
+          const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
+          mobility.set_common(first, bodies[i].translation_mobility());
+          mobility.set_common(first + 1, bodies[i].rotation_mobility());
+        }
     set_target_gaps(state);
     if (solver.type == ContactSolver::Type::coupled)
       {
@@ -69,13 +79,14 @@ namespace akmon
   void
   Contact::solve_coupled(const NodalState &state)
   {
-    constexpr unsigned int most_rounds = 4;
-    constexpr double tolerance         = 1e-7; // of gaps, relative to the cell size
+    // Rigid shapes are exact: so are gaps from them.
+    const unsigned int most_rounds = bodies.empty() ? 4 : 8;
+    const double tolerance         = bodies.empty() ? 1e-7 : 1e-12; // of gaps, over the cell size
 
     coupled.solve(dx_free);
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
-        if (Utilities::MPI::max(follow_segments(state), discretization.communicator()) <= tolerance)
+        if (Utilities::MPI::max(follow_partners(state), discretization.communicator()) <= tolerance)
           return;
         set_target_gaps(state);
         coupled.solve(dx_free);
@@ -83,25 +94,64 @@ namespace akmon
   }
 
 
-  // While segments turn under a slave, n . G dx + g misses a part of second order of the gap that
-  // the step reaches. Measures it for all pairs that may close; returns by how much of the cell
-  // size it is not what the solution counted on.
-  double
-  Contact::follow_segments(const NodalState &state)
+  // Where the bodies are at the next level, after contact forces that cause a response.
+  std::vector<Pose>
+  Contact::reached_poses(const ContactNodes::Field *response) const
   {
-    if (searches.empty())
+    std::vector<Pose> poses;
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      {
+        RigidIncrement increment;
+        if (bodies[i].moves() && response)
+          {
+            const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
+            increment                = {(*response)[first], (*response)[first + 1]};
+          }
+        poses.push_back(bodies[i].next_pose(increment));
+      }
+    return poses;
+  }
+
+
+  // The gap of a pair in the configuration x_reached; false if it has no partner there.
+  bool
+  Contact::reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
+  {
+    if (pair.interface < contacts.size())
+      return pair.n_nodes > 1 && pair.slot == 0 &&
+             searches[pair.search].gap_at(x_reached, pair, gap);
+    if (pair.slave == numbers::invalid_unsigned_int)
+      return std::any_of(rigid_touches.begin(), rigid_touches.end(), [&](const auto &touch) {
+        return touch.gap_at(pair, poses, gap);
+      });
+    const unsigned int body = pair.interface - contacts.size();
+    gap                     = obstacle_gap(*bodies[body].parameters().shape,
+                       poses[body],
+                       pair,
+                       x_reached[pair.nodes[0]]);
+    return true;
+  }
+
+
+  // While segments turn under a slave, surfaces are curved or bodies rotate, n . G dx + g misses a
+  // part of second order of the gap that the step reaches. Measures it for all pairs that may
+  // close; returns by how much of the cell size it is not what the solution counted on.
+  double
+  Contact::follow_partners(const NodalState &state)
+  {
+    if (searches.empty() && bodies.empty())
       return 0.;
     const auto &dx_contact = coupled.increments();
     x_reached              = x;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       x_reached.add(i, dx_free[i] + dx_contact[i]);
+    const auto poses = reached_poses(&dx_contact);
 
     double largest = 0.;
     for (ContactPair *const pair : coupled.participants())
       {
         double reached;
-        if (pair->n_nodes == 1 || pair->slot > 0 ||
-            !searches[pair->search].gap_at(x_reached, *pair, reached))
+        if (!reached_gap(*pair, poses, reached))
           continue;
         const auto motion      = pair->relative(dx_free) + pair->relative(dx_contact);
         const double bound     = 0.5 * motion.norm(); // whatever is beyond is another partner
@@ -113,6 +163,56 @@ namespace akmon
         pair->curvature = curvature;
       }
     return largest;
+  }
+
+
+  // What is left of penetrations into obstacles that forces do not move, after the solution: taken
+  // away node by node, exactly, along the pair's normal.
+  void
+  Contact::push_out(const NodalState &state, const double effective_mass_factor)
+  {
+    constexpr unsigned int most_rounds = 8;
+
+    std::vector<ContactPair *> candidates;
+    for (auto &pair : pairs)
+      if (pair.interface >= contacts.size() && pair.slave != numbers::invalid_unsigned_int &&
+          !bodies[pair.interface - contacts.size()].is_free())
+        candidates.push_back(&pair);
+    if (Utilities::MPI::max(candidates.size(), discretization.communicator()) == 0)
+      return;
+    const auto poses = reached_poses(nullptr);
+    x_reached        = x;
+    for (unsigned int i = 0; i < nodes.first_common(); ++i)
+      x_reached.add(i, dx_free[i]);
+    ContactNodes::Field force;
+    nodes.make(force);
+    for (const auto &pair : pairs)
+      if (pair.normal_force > 0.)
+        pair.distribute(pair.force(), force);
+    nodes.add_to_owners(force);
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      x_reached.add(i, mobility[i] * force[i] / effective_mass_factor);
+
+    for (unsigned int round = 0; round < most_rounds; ++round)
+      {
+        bool pushed = false;
+        for (ContactPair *const pair : candidates)
+          {
+            const unsigned int node = pair->nodes[0];
+            double reached;
+            reached_gap(*pair, poses, reached);
+            const double lacking = std::min(0., pair->gap + release(*pair, state)) - reached;
+            const auto response  = mobility[node] * pair->normal / effective_mass_factor;
+            const double along   = pair->normal * response;
+            if (!(lacking > 1e-16 * (pair->size + x_reached[node].norm())) || !(along > 0.))
+              continue;
+            pair->normal_force += lacking / along;
+            x_reached.add(node, (lacking / along) * response);
+            pushed = true;
+          }
+        if (!pushed)
+          break;
+      }
   }
 
 
@@ -169,15 +269,18 @@ namespace akmon
   void
   Contact::add_increments(NodalState &state, const double effective_mass_factor)
   {
+    push_out(state, effective_mass_factor);
+    load_rigid_bodies();
     contributions.clear();
     for (const auto &pair : pairs)
       if (pair.normal_force > 0.)
         for (unsigned int k = 0; k < pair.n_nodes; ++k)
-          contributions.push_back({nodes.id(pair.nodes[k]),
-                                   pair.interface,
-                                   pair.slave_id,
-                                   pair.at_node(k, pair.normal_force * pair.normal),
-                                   pair.at_node(k, pair.tangential_force)});
+          if (pair.nodes[k] < nodes.first_common())
+            contributions.push_back({nodes.id(pair.nodes[k]),
+                                     pair.interface,
+                                     pair.slave_id,
+                                     pair.at_node(k, pair.normal_force * pair.normal),
+                                     pair.at_node(k, pair.tangential_force)});
     nodes.send_to_owners(contributions);
 
     forces.clear();
@@ -196,6 +299,37 @@ namespace akmon
         for (unsigned int d = 0; d < 3; ++d)
           state.dx_next.local_element(3 * force.node + d) += increment[d];
       }
+  }
+
+
+  // The forces on the bodies, summed over the pairs of all ranks.
+  void
+  Contact::load_rigid_bodies()
+  {
+    if (rigid_nodes.n == 0)
+      return;
+    std::vector<Tensor<1, 3>> normal(rigid_nodes.n), tangential(rigid_nodes.n);
+    for (const auto &pair : pairs)
+      if (pair.normal_force > 0.)
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          if (pair.nodes[k] >= nodes.first_common())
+            {
+              const unsigned int i = pair.nodes[k] - nodes.first_common();
+              normal[i] += pair.at_node(k, pair.normal_force * pair.normal);
+              tangential[i] += pair.at_node(k, pair.tangential_force);
+            }
+    const auto sum = [&](std::vector<Tensor<1, 3>> &of_rank) {
+      for (auto &value : of_rank)
+        value = Utilities::MPI::sum(value, discretization.communicator());
+    };
+    sum(normal);
+    sum(tangential);
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      if (bodies[i].moves())
+        {
+          const unsigned int n = rigid_nodes.first[i];
+          bodies[i].add_contact({normal[n], normal[n + 1]}, {tangential[n], tangential[n + 1]});
+        }
   }
 
 

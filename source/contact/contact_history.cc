@@ -51,9 +51,11 @@ namespace akmon
   void
   Contact::save(CheckpointWriter &checkpoint) const
   {
-    std::vector<const ContactPair *> carrying; // the others start from nothing
+    // The others start from nothing, and so do pairs of two rigid bodies.
+    std::vector<const ContactPair *> carrying;
     for (const auto &pair : pairs)
-      if (pair.normal_force != 0. || pair.curvature != 0.)
+      if (pair.slave != numbers::invalid_unsigned_int &&
+          (pair.normal_force != 0. || pair.curvature != 0.))
         carrying.push_back(&pair);
     checkpoint.table("contact_pairs",
                      carrying.size(),

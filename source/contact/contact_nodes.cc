@@ -10,15 +10,17 @@ namespace akmon
   using namespace dealii;
 
   ContactNodes::ContactNodes(const Discretization &discretization,
-                             const std::vector<unsigned int> &surface_nodes)
+                             const std::vector<unsigned int> &surface_nodes,
+                             const unsigned int n_common_nodes)
     : communicator(discretization.communicator())
     , parallel(Utilities::MPI::n_mpi_processes(communicator) > 1)
+    , n_common(n_common_nodes)
     , owned(surface_nodes)
   {
     Id n = owned.size(), first = 0;
     const Id total = Utilities::MPI::sum(n, communicator);
     MPI_Exscan(&n, &first, 1, Utilities::MPI::mpi_type_id_for_type<Id>, MPI_SUM, communicator);
-    parallel = parallel && total > 0;
+    parallel = parallel && (total > 0 || n_common > 0);
     owned_indices.set_size(3 * total);
     owned_indices.add_range(3 * first, 3 * (first + n));
 
@@ -77,7 +79,7 @@ namespace akmon
     const std::size_t n = 3 * owned.size();
     buffer.resize(partitioner->n_import_indices());
     std::vector<MPI_Request> requests;
-    const ArrayView<double> ghosts(field.values.data() + n, field.values.size() - n);
+    const ArrayView<double> ghosts(field.values.data() + n, 3 * std::size_t(first_common()) - n);
     partitioner->export_to_ghosted_array_start<double, MemorySpace::Host>(
       0,
       ArrayView<const double>(field.values.data(), n),
@@ -96,7 +98,7 @@ namespace akmon
     const std::size_t n = 3 * owned.size();
     buffer.resize(partitioner->n_import_indices());
     std::vector<MPI_Request> requests;
-    const ArrayView<double> ghosts(field.values.data() + n, field.values.size() - n);
+    const ArrayView<double> ghosts(field.values.data() + n, 3 * std::size_t(first_common()) - n);
     const ArrayView<double> imports(buffer.data(), buffer.size());
     partitioner->import_from_ghosted_array_start<double, MemorySpace::Host>(VectorOperation::add,
                                                                             1,
@@ -109,6 +111,13 @@ namespace akmon
       ArrayView<double>(field.values.data(), n),
       ghosts,
       requests);
+    if (n_common > 0)
+      MPI_Allreduce(MPI_IN_PLACE,
+                    field.values.data() + 3 * std::size_t(first_common()),
+                    3 * n_common,
+                    MPI_DOUBLE,
+                    MPI_SUM,
+                    communicator);
   }
 
 

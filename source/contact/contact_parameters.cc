@@ -142,32 +142,4 @@ namespace akmon
     symmetric     = prm.get("Pass") == "symmetric";
     rim_tolerance = prm.get_double("Rim tolerance");
   }
-
-
-  void
-  RigidPlane::declare(dealii::ParameterHandler &prm)
-  {
-    prm.declare_entry("Surfaces",
-                      "",
-                      List(Anything()),
-                      "Boundary parts BODY:PART whose nodes the plane stops");
-    declare_vector(prm, "Point", "0, 0, 0", "A point of the plane (length)");
-    declare_vector(prm, "Normal", "0, 0, 1", "Normal of the plane, to the side of the bodies");
-    ContactLaw::declare(prm);
-  }
-
-
-  void
-  RigidPlane::parse(dealii::ParameterHandler &prm, const std::string &section)
-  {
-    ContactLaw::parse(prm, section);
-    slaves = split_list(prm.get("Surfaces"));
-    if (slaves.empty())
-      throw InputError(section, "Surfaces", "(none)", "allowed are boundary parts BODY:PART");
-    point  = dealii::Point<3>(get_vector(prm, section, "Point"));
-    normal = get_vector(prm, section, "Normal");
-    if (normal.norm() == 0.)
-      throw InputError(section, "Normal", prm.get("Normal"), "it must not be zero");
-    normal /= normal.norm();
-  }
 } // namespace akmon

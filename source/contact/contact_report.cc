@@ -17,20 +17,24 @@ namespace akmon
   {
     ContactReport report;
     report.iterations = coupled.iterations();
-    report.forces.resize(contacts.size() + planes.size());
+    report.forces.resize(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
       {
         report.max_penetration = std::max(report.max_penetration, -pair.gap);
         if (-pair.gap / pair.size > report.max_penetration_relative)
           {
             report.max_penetration_relative = -pair.gap / pair.size;
-            report.place                    = Point<3>(at_node(state.x, pair.slave));
+            report.place                    = Point<3>(pair.slave == numbers::invalid_unsigned_int ?
+                                                         pair.place :
+                                                         at_node(state.x, pair.slave));
             report.deepest                  = pair.slave;
           }
         report.active_pairs += pair.normal_force > 0.;
         report.sticking_pairs += pair.normal_force > 0. && pair.sticks;
         const auto force = pair.normal_force * pair.normal + pair.tangential_force;
-        report.forces[pair.interface] += pair.reversed ? -force : force;
+        // Of an obstacle, on what it touches.
+        const bool own = pair.slave == numbers::invalid_unsigned_int;
+        report.forces[pair.interface] += pair.reversed != own ? -force : force;
       }
     return report;
   }
@@ -42,8 +46,8 @@ namespace akmon
     std::vector<std::string> result;
     for (const auto &contact : contacts)
       result.push_back(contact.name);
-    for (const auto &plane : planes)
-      result.push_back(plane.name);
+    for (const auto &body : bodies)
+      result.push_back(body.parameters().name);
     return result;
   }
 
@@ -54,8 +58,8 @@ namespace akmon
     std::vector<BoundaryFace> faces;
     for (const auto &search : searches)
       faces.insert(faces.end(), search.surface_faces().begin(), search.surface_faces().end());
-    for (const auto &of_plane : plane_faces)
-      faces.insert(faces.end(), of_plane.begin(), of_plane.end());
+    for (const auto &search : obstacle_searches)
+      faces.insert(faces.end(), search.surface_faces().begin(), search.surface_faces().end());
     std::sort(faces.begin(), faces.end(), [](const auto &a, const auto &b) { return a.id < b.id; });
     faces.erase(std::unique(faces.begin(),
                             faces.end(),
@@ -78,12 +82,18 @@ namespace akmon
     std::string message;
     if (deepest)
       {
-        const auto place = at_node(state.x, deepest->slave);
+        const bool rigid = deepest->slave == numbers::invalid_unsigned_int;
+        const auto place = rigid ? deepest->place : at_node(state.x, deepest->slave);
         message          = "[" +
                   std::string(deepest->interface < contacts.size() ? "Contact/" : "Obstacles/") +
-                  law_of(*deepest).name + "] body '" +
-                  discretization.get_bodies()[discretization.body_of_node[deepest->slave]].name +
-                  "' starts inside its partner, " + shortest_text(-deepest->gap) + " deep at (" +
+                  law_of(*deepest).name + "] " +
+                  (rigid ?
+                     "it" :
+                     "body '" +
+                       discretization.get_bodies()[discretization.body_of_node[deepest->slave]]
+                         .name +
+                       "'") +
+                  " starts inside its partner, " + shortest_text(-deepest->gap) + " deep at (" +
                   shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
                   shortest_text(place[2]) + "); move the bodies apart";
       }

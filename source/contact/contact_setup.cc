@@ -2,7 +2,8 @@
 #include <akmon/parameters.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
+#include <utility>
 
 // How Contact is made from its parameters.
 
@@ -12,26 +13,6 @@ namespace akmon
 
   namespace
   {
-    // Least edge at each owned node of some faces, by local node number.
-    std::vector<std::pair<unsigned int, double>>
-    node_sizes(const Discretization &discretization, const std::vector<BoundaryFace> &faces)
-    {
-      std::map<unsigned int, double> sizes;
-      for (const auto &face : faces)
-        for (unsigned int k = 0; k < 4; ++k)
-          for (const unsigned int end : {k, (k + 1) % 4})
-            if (face.nodes[end] < discretization.n_owned_nodes)
-              {
-                const double edge = (at_node(discretization.reference, face.nodes[k]) -
-                                     at_node(discretization.reference, face.nodes[(k + 1) % 4]))
-                                      .norm();
-                const auto entry = sizes.emplace(face.nodes[end], edge).first;
-                entry->second    = std::min(entry->second, edge);
-              }
-      return {sizes.begin(), sizes.end()};
-    }
-
-
     std::vector<SurfaceSearch>
     make_searches(const Discretization &discretization,
                   const ContactSolver &solver,
@@ -51,25 +32,52 @@ namespace akmon
     }
 
 
-    std::vector<std::vector<BoundaryFace>>
-    faces_of_planes(const Discretization &discretization, const std::vector<RigidPlane> &planes)
+    std::vector<ObstacleSearch>
+    make_obstacle_searches(const Discretization &discretization,
+                           const std::vector<RigidBody> &bodies,
+                           const unsigned int first_interface)
     {
-      std::vector<std::vector<BoundaryFace>> faces;
-      for (const auto &plane : planes)
-        {
-          std::set<types::boundary_id> ids;
-          for (const auto &surface : plane.slaves)
-            ids.merge(discretization.boundary_ids("Obstacles/" + plane.name, "Surfaces", surface));
-          faces.push_back(discretization.faces_on(ids));
-        }
-      return faces;
+      std::vector<ObstacleSearch> searches;
+      for (unsigned int i = 0; i < bodies.size(); ++i)
+        searches.emplace_back(discretization, bodies[i], first_interface + i);
+      return searches;
+    }
+
+
+    // Bodies that name each other as obstacles, each two once.
+    std::vector<RigidTouch>
+    make_rigid_touches(const std::vector<RigidBody> &bodies, const unsigned int first_interface)
+    {
+      std::vector<RigidTouch> touches;
+      std::set<std::pair<unsigned int, unsigned int>> known;
+      for (unsigned int i = 0; i < bodies.size(); ++i)
+        for (const auto &name : bodies[i].parameters().obstacles)
+          {
+            unsigned int j = 0;
+            while (j < bodies.size() && bodies[j].parameters().name != name)
+              ++j;
+            const std::string section = "Obstacles/" + bodies[i].parameters().name;
+            if (j == bodies.size() || j == i)
+              throw InputError(section,
+                               "Obstacles",
+                               name,
+                               "allowed are names of other obstacles (the Names of [Obstacles])");
+            if (!bodies[i].is_free() && !bodies[j].is_free())
+              throw InputError(section, "Obstacles", name, "one of the two must be free to move");
+            if (known.insert({std::min(i, j), std::max(i, j)}).second)
+              touches.emplace_back(bodies,
+                                   std::make_pair(i, j),
+                                   first_interface + i,
+                                   touches.size());
+          }
+      return touches;
     }
 
 
     std::vector<unsigned int>
     owned_nodes(const Discretization &discretization,
                 const std::vector<SurfaceSearch> &searches,
-                const std::vector<std::vector<BoundaryFace>> &plane_faces)
+                const std::vector<ObstacleSearch> &obstacle_searches)
     {
       std::vector<unsigned int> nodes;
       const auto add = [&](const std::vector<BoundaryFace> &faces) {
@@ -80,8 +88,8 @@ namespace akmon
       };
       for (const auto &search : searches)
         add(search.surface_faces());
-      for (const auto &faces : plane_faces)
-        add(faces);
+      for (const auto &search : obstacle_searches)
+        add(search.surface_faces());
       std::sort(nodes.begin(), nodes.end());
       nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
       return nodes;
@@ -92,26 +100,26 @@ namespace akmon
   Contact::Contact(const Discretization &discretization,
                    const ContactSolver &solver,
                    const std::vector<SurfaceContact> &contacts,
-                   const std::vector<RigidPlane> &planes,
+                   std::vector<RigidBody> &bodies,
                    const EssentialConditions &conditions)
     : discretization(discretization)
     , solver(solver)
     , contacts(contacts)
-    , planes(planes)
+    , bodies(bodies)
     , searches(make_searches(discretization, solver, contacts))
-    , plane_faces(faces_of_planes(discretization, planes))
-    , surface_nodes(owned_nodes(discretization, searches, plane_faces))
-    , nodes(discretization, surface_nodes)
+    , obstacle_searches(make_obstacle_searches(discretization, bodies, contacts.size()))
+    , rigid_touches(make_rigid_touches(bodies, contacts.size()))
+    , rigid_nodes(bodies)
+    , surface_nodes(owned_nodes(discretization, searches, obstacle_searches))
+    , nodes(discretization, surface_nodes, rigid_nodes.n)
     , mobility(discretization, conditions)
     , coupled(solver, nodes, mobility)
   {
-    for (const auto &faces : plane_faces)
-      plane_slaves.push_back(node_sizes(discretization, faces));
-    for (unsigned int i = 0; i < contacts.size() + planes.size(); ++i)
+    for (unsigned int i = 0; i < contacts.size() + bodies.size(); ++i)
       {
         const bool is_contact = i < contacts.size();
         const ContactLaw &law = is_contact ? static_cast<const ContactLaw &>(contacts[i]) :
-                                             planes[i - contacts.size()];
+                                             bodies[i - contacts.size()].parameters();
         if (solver.type == ContactSolver::Type::coupled && law.stick == ContactLaw::Stick::central)
           throw InputError((is_contact ? "Contact/" : "Obstacles/") + law.name,
                            "Stick",

@@ -38,6 +38,24 @@ namespace akmon
   } // namespace
 
 
+  namespace
+  {
+    // Where rigid bodies touch at more points than it takes, the gaps disagree by rounding, which
+    // nothing can move: relative to the size of the pairs.
+    double
+    rounding_of_rigid_gaps(const std::vector<ContactPair *> &pairs)
+    {
+      constexpr double rounding = 1e-15;
+
+      double largest = 0.;
+      for (const ContactPair *const pair : pairs)
+        if (pair->slave == numbers::invalid_unsigned_int)
+          largest = std::max(largest, rounding * (1. + pair->place.norm() / pair->size));
+      return largest;
+    }
+  } // namespace
+
+
   CoupledSolver::CoupledSolver(const ContactSolver &parameters,
                                const ContactNodes &nodes,
                                const Mobility &mobility)
@@ -175,7 +193,9 @@ namespace akmon
         tau[i]    = s[i] > 0. ? delassus.frame(i) * pair.force() / s[i] : Tensor<1, 3>();
         violation = std::max(violation, -weights[i] * problem.b[i][0]);
       }
-    const double tolerance = tolerance_for(violation);
+    const double tolerance = std::max(tolerance_for(violation),
+                                      Utilities::MPI::max(rounding_of_rigid_gaps(coupled),
+                                                          nodes.get_communicator()));
     Solver solver(scaled, preconditioner, nodes.get_communicator(), tolerance, parameters.limit);
     const auto result = solver.solve(problem, tau);
     n_iterations += result.n_applications;

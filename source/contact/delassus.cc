@@ -68,6 +68,8 @@ namespace akmon
   {
     const auto coefficient = [&](const std::size_t i, const unsigned int k) {
       const ContactPair &pair = *pairs[i];
+      if (k >= pair.n_points())
+        return std::abs(pair.weights[k]) * pair.radii[k - pair.n_points()].norm() * scales[i];
       const double of_lever = pair.levered && k > 0 ? pair.lever.norm() * pair.arms[k - 1].norm() :
                                                       0.;
       return (std::abs(pair.weights[k]) + of_lever) * scales[i];
@@ -106,12 +108,17 @@ namespace akmon
     std::vector<bool> result;
     for (const ContactPair *const pair : pairs)
       {
-        // A node alone may be guided along the contact plane.
+        // A node alone may be guided along the contact plane; what is held moves with nobody.
         bool isolated = !pair->levered;
         for (unsigned int k = 0; k < pair->n_nodes; ++k)
-          isolated = isolated && field[pair->nodes[k]][0] == 1. &&
-                     (pair->n_nodes == 1 ? mobility.is_free_along(pair->nodes[k], pair->normal) :
-                                           mobility.is_free(pair->nodes[k]));
+          {
+            const unsigned int number = pair->nodes[k];
+            isolated                  = isolated &&
+                       (mobility.is_held(number) ||
+                        (field[number][0] == 1. &&
+                         (pair->n_nodes == 1 ? mobility.is_free_along(number, pair->normal) :
+                                               mobility.is_free(number))));
+          }
         result.push_back(isolated);
       }
     return result;
@@ -143,6 +150,8 @@ namespace akmon
       }
     nodes.add_to_owners(field);
     for (unsigned int number = 0; number < nodes.n_owned(); ++number)
+      to_increment(number);
+    for (unsigned int number = nodes.first_common(); number < nodes.size(); ++number)
       to_increment(number);
     nodes.update_ghosts(field);
   }

@@ -26,8 +26,9 @@ namespace akmon
       }
     nodes.update_ghosts(diagonal);
     nodes.update_ghosts(off_diagonal);
+    first_common = nodes.first_common();
     W.resize(nodes.size());
-    for (unsigned int i = 0; i < W.size(); ++i)
+    for (unsigned int i = 0; i < first_common; ++i)
       for (unsigned int d = 0; d < 3; ++d)
         {
           W[i][d][d]                     = diagonal[i][d];

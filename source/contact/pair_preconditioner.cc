@@ -31,10 +31,17 @@ namespace akmon
     const auto &scales = delassus->scale();
     mass_factor        = new_mass_factor;
     entries.clear();
+    rigid_share.assign(pairs.size(), 0.);
     for (unsigned int i = 0; i < pairs.size(); ++i)
       for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
         {
-          const unsigned int node  = pairs[i]->nodes[k];
+          const unsigned int node = pairs[i]->nodes[k];
+          if (mobility.is_common(node))
+            {
+              const auto force = scales[i] * pairs[i]->at_node(k, pairs[i]->normal);
+              rigid_share[i] += force * (mobility[node] * force) / mass_factor;
+              continue;
+            }
           const double coefficient = scales[i] * pairs[i]->weights[k] *
                                      std::sqrt(mobility.inverse_mass(node) / mass_factor);
           if (coefficient != 0.)
@@ -109,7 +116,7 @@ namespace akmon
       row_of_pair[factor.members[row]] = row;
     triplets.clear();
     for (unsigned int row = 0; row < n; ++row)
-      triplets.emplace_back(row, row, shift);
+      triplets.emplace_back(row, row, shift + rigid_share[factor.members[row]]);
     for (auto begin = entries.begin(); begin != entries.end();)
       {
         auto end = begin;

@@ -1,8 +1,11 @@
 #include <akmon/forces/external_forces.h>
 #include <akmon/parameters.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace akmon
 {
@@ -51,6 +54,11 @@ namespace akmon
                       "0",
                       Patterns::Double(0.),
                       "Mass-proportional damping rate eta (1/time)");
+    prm.declare_entry("Damping end",
+                      "never",
+                      Patterns::Anything(),
+                      "Time at which the damping is switched off, or 'never'; for settling under "
+                      "gravity or a preload before the event (time)");
   }
 
 
@@ -58,7 +66,18 @@ namespace akmon
   BodyForce::parse(ParameterHandler &prm)
   {
     acceleration.parse(prm, "Body force", "Acceleration", 3);
-    damping = prm.get_double("Damping");
+    damping               = prm.get_double("Damping");
+    const std::string end = prm.get("Damping end");
+    damping_end           = std::numeric_limits<double>::infinity();
+    if (end != "never")
+      {
+        if (!Patterns::Double(0.).match(end))
+          throw InputError("Body force",
+                           "Damping end",
+                           end,
+                           "allowed are 'never' and numbers from 0 on");
+        damping_end = Utilities::string_to_double(end);
+      }
   }
 
 

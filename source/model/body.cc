@@ -53,6 +53,11 @@ namespace akmon
                    "Spin",
                    "0, 0, 0",
                    "Initial angular velocity omega_0 about the body's centre of volume (1/time)");
+    SpaceTimeFunction::declare(prm,
+                               "Velocity field",
+                               "0; 0; 0",
+                               "Initial velocity as a function of position, added to Velocity and "
+                               "Spin (length/time)");
     MeshParameters::declare(prm);
   }
 
@@ -74,6 +79,7 @@ namespace akmon
     position              = get_vector(prm, section, "Position");
     velocity              = get_vector(prm, section, "Velocity");
     spin                  = get_vector(prm, section, "Spin");
+    velocity_field.parse(prm, section, "Velocity field", 3);
 
     const auto axis = get_vector(prm, section, "Rotation axis");
     if (axis.norm() == 0.)

@@ -244,6 +244,8 @@ namespace akmon
       scalars.local_element(3 * node + 1) = std::numeric_limits<double>::quiet_NaN();
     for (const auto &pair : contact.get_pairs())
       {
+        if (pair.slave == numbers::invalid_unsigned_int) // of rigid bodies
+          continue;
         double &gap = scalars.local_element(3 * pair.slave + 1);
         if (!(gap < pair.gap))
           gap = pair.gap;

@@ -56,6 +56,11 @@ namespace akmon
     for (const auto &name : watched.contact.names())
       for (const char *const axis : {"x", "y", "z"})
         history.add_column(name + ".force_" + axis);
+    for (const auto &body : watched.rigid_bodies)
+      if (body.moves())
+        for (const char *const quantity : {".displacement_", ".velocity_", ".spin_"})
+          for (const char *const axis : {"x", "y", "z"})
+            history.add_column(body.parameters().name + quantity + axis);
     history.add_columns(probes.columns());
   }
 
@@ -69,7 +74,9 @@ namespace akmon
     if (report.max_penetration_relative > deepest.size)
       deepest = {report.max_penetration_relative,
                  report.place,
-                 watched.discretization.body_of_node[report.deepest]};
+                 report.deepest == numbers::invalid_unsigned_int ?
+                   0 :
+                   watched.discretization.body_of_node[report.deepest]};
     penetration          = std::max(penetration, report.max_penetration);
     penetration_relative = std::max(penetration_relative, report.max_penetration_relative);
 
@@ -103,25 +110,49 @@ namespace akmon
   }
 
 
+  // Of all rigid bodies, on rank 0: they are the same on all.
+  RigidBody::Work
+  Monitor::rigid_work(RigidBody::Work (RigidBody::*of_body)() const) const
+  {
+    RigidBody::Work sum;
+    if (Utilities::MPI::this_mpi_process(watched.discretization.communicator()) == 0)
+      for (const auto &body : watched.rigid_bodies)
+        {
+          const RigidBody::Work work = (body.*of_body)();
+          sum.external += work.external;
+          sum.damping += work.damping;
+          sum.normal += work.normal;
+          sum.tangential += work.tangential;
+        }
+    return sum;
+  }
+
+
   void
   Monitor::account_work()
   {
     const auto &dx = watched.state.dx, &dx_next = watched.state.dx_next;
-    const auto add = [&](WorkLine &line, const auto &work) {
+    const RigidBody::Work before = rigid_work(&RigidBody::work_before),
+                          after  = rigid_work(&RigidBody::work_after);
+    const auto add               = [&](WorkLine &line, const auto &work) {
       if (watched.state.step == 0)
-        line.add_start(work(dx), work(dx_next));
+        line.add_start(work(dx, before), work(dx_next, after));
       else
-        line.add_level(work(dx), work(dx_next));
+        line.add_level(work(dx, before), work(dx_next, after));
     };
-    add(external, [&](const NodalVector &increment) {
-      return watched.external_forces.work(increment) + watched.conditions.reaction_work(increment);
+    add(external, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
+      return watched.external_forces.work(increment) + watched.conditions.reaction_work(increment) +
+             rigid.external;
     });
-    add(damping,
-        [&](const NodalVector &increment) { return -watched.integrator.damping_work(increment); });
-    add(impact,
-        [&](const NodalVector &increment) { return -watched.contact.work(increment).normal; });
-    add(friction,
-        [&](const NodalVector &increment) { return -watched.contact.work(increment).tangential; });
+    add(damping, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
+      return rigid.damping - watched.integrator.damping_work(increment);
+    });
+    add(impact, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
+      return -watched.contact.work(increment).normal - rigid.normal;
+    });
+    add(friction, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
+      return -watched.contact.work(increment).tangential - rigid.tangential;
+    });
   }
 
 
@@ -140,7 +171,9 @@ namespace akmon
     Utilities::MPI::sum(ArrayView<const double>(local.data(), local.size()),
                         watched.discretization.communicator(),
                         ArrayView<double>(all.data(), all.size()));
-    balance.kinetic              = all[0];
+    balance.kinetic = all[0];
+    for (const auto &body : watched.rigid_bodies)
+      balance.kinetic += body.kinetic_energy();
     balance.strain               = all[1] - all[2];
     balance.plastic_dissipation  = all[2];
     balance.damping_dissipation  = all[3];
@@ -182,6 +215,12 @@ namespace akmon
         sums[5] += X[0] * p[1] - X[1] * p[0];
       }
     Utilities::MPI::sum(sums, watched.discretization.communicator(), sums);
+    for (const auto &body : watched.rigid_bodies)
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          sums[d] += body.momentum()[d];
+          sums[3 + d] += body.angular_momentum()[d];
+        }
     return sums;
   }
 
@@ -220,6 +259,10 @@ namespace akmon
     Utilities::MPI::sum(sums, communicator, sums);
     sums.insert(sums.begin() + 2, double(report.iterations));
     append(sums);
+    for (const auto &body : watched.rigid_bodies)
+      if (body.moves())
+        for (const auto &value : {body.displacement(), body.velocity(), body.spin()})
+          append({value[0], value[1], value[2]});
     append(probes.values(watched.state));
     history.write_row(row);
   }

@@ -4,10 +4,14 @@
 
 namespace akmon
 {
-  Fidcd::Fidcd(const Discretization &discretization, NodalState &state, const double damping)
+  Fidcd::Fidcd(const Discretization &discretization,
+               NodalState &state,
+               const double damping,
+               const double damping_end)
     : discretization(discretization)
     , state(state)
     , damping(damping)
+    , damping_end(damping_end)
   {
   }
 
@@ -18,7 +22,7 @@ namespace akmon
   {
     state.dt = state.dt_next = dt;
     mass_factor              = 2. / (dt * dt);
-    const double carry       = dt * (1. - 0.5 * damping * dt);
+    const double carry       = dt * (1. - 0.5 * damping_rate() * dt);
     for (unsigned int node = 0, i = 0; node < discretization.n_owned_nodes; ++node)
       {
         const double inverse_mass = 1. / (discretization.mass[node] * mass_factor);
@@ -59,9 +63,9 @@ namespace akmon
   void
   Fidcd::free_increment()
   {
-    const double dt_bar = 0.5 * (state.dt + state.dt_next);
-    mass_factor         = 1. / (state.dt_next * dt_bar) + 0.5 * damping / state.dt_next;
-    const double carry  = (1. / (state.dt * dt_bar) - 0.5 * damping / state.dt) / mass_factor;
+    const double dt_bar = 0.5 * (state.dt + state.dt_next), eta = damping_rate();
+    mass_factor        = 1. / (state.dt_next * dt_bar) + 0.5 * eta / state.dt_next;
+    const double carry = (1. / (state.dt * dt_bar) - 0.5 * eta / state.dt) / mass_factor;
 
     const double *const dx    = state.dx.begin();
     const double *const force = state.force.begin();
@@ -111,11 +115,12 @@ namespace akmon
   double
   Fidcd::damping_work(const NodalVector &increment) const
   {
-    if (damping == 0.)
+    const double eta = damping_rate();
+    if (eta == 0.)
       return 0.;
     double sum = 0.;
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
       sum -= discretization.mass[node] * (velocity(node) * at_node(increment, node));
-    return damping * sum;
+    return eta * sum;
   }
 } // namespace akmon

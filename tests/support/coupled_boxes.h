@@ -78,7 +78,7 @@ namespace akmon::test
                        MPI_COMM_SELF)
       , state(discretization)
       , conditions(discretization, motions)
-      , contact(discretization, solver, contacts, planes, conditions)
+      , contact(discretization, solver, contacts, no_obstacles, conditions)
       , nodes(discretization, owned_nodes(contact.contact_faces()))
       , integrator(discretization, state, 0.)
       , velocity(discretization.make_vector())
@@ -185,7 +185,7 @@ namespace akmon::test
 
     const ContactSolver solver; // as by default
     const std::vector<SurfaceContact> contacts;
-    const std::vector<RigidPlane> planes;        // none
+    std::vector<RigidBody> no_obstacles;
     const std::vector<PrescribedMotion> motions; // none
     Discretization discretization;
     NodalState state;

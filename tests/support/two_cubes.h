@@ -83,7 +83,7 @@ namespace akmon::test
                        MPI_COMM_SELF)
       , state(discretization)
       , conditions(discretization, this->motions)
-      , contact(discretization, solver, contacts, planes, conditions)
+      , contact(discretization, solver, contacts, no_obstacles, conditions)
       , nodes(discretization, owned_nodes(contact.contact_faces()))
       , integrator(discretization, state, 0.)
       , velocity(discretization.make_vector())
@@ -160,7 +160,7 @@ namespace akmon::test
 
     const ContactSolver solver;
     const std::vector<SurfaceContact> contacts;
-    const std::vector<RigidPlane> planes; // none
+    std::vector<RigidBody> no_obstacles;
     const std::vector<PrescribedMotion> motions;
     Discretization discretization;
     NodalState state;

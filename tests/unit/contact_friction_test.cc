@@ -102,13 +102,16 @@ namespace
   {
     ContactSolver solver;
     solver.type = GetParam();
-    RigidPlane plane;
-    plane.name                                  = "floor";
-    plane.slaves                                = {"left:x+"};
-    plane.friction                              = {0.25, 0.25, 0.};
-    plane.point                                 = dealii::Point<3>(0.5 + initial_gap, 3., 4.);
-    plane.normal                                = Vector({-1., 0., 0.});
-    const std::vector<RigidPlane> planes        = {plane};
+    Obstacle plane;
+    plane.name              = "floor";
+    plane.slaves            = {"left:x+"};
+    plane.friction          = {0.25, 0.25, 0.};
+    plane.shape             = std::make_shared<PlaneShape>();
+    plane.start.place       = Vector({0.5 + initial_gap, 3., 4.});
+    plane.start.orientation = Orientation::z_axis_to(Vector({-1., 0., 0.}));
+    const SpaceTimeFunction no_gravity;
+    std::vector<RigidBody> planes;
+    planes.emplace_back(plane, no_gravity);
     const std::vector<SurfaceContact> contacts  = {};
     const std::vector<PrescribedMotion> motions = {};
     BoxShape shape;

@@ -56,8 +56,8 @@ namespace
       // Contact refers to what it is given.
       const ContactSolver solver; // as by default: coupled
       const std::vector<SurfaceContact> contacts = {touching()};
-      const std::vector<RigidPlane> planes;
-      Contact contact(discretization, solver, contacts, planes, conditions);
+      std::vector<RigidBody> no_obstacles;
+      Contact contact(discretization, solver, contacts, no_obstacles, conditions);
       contact.search(NodalState(discretization));
       pairs = contact.get_pairs();
       std::vector<ContactPair *> all;

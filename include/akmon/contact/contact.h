@@ -5,6 +5,7 @@
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/mobility.h>
+#include <akmon/contact/obstacle_search.h>
 #include <akmon/contact/pair.h>
 #include <akmon/contact/surface_search.h>
 #include <akmon/model/essential_conditions.h>
@@ -31,17 +32,20 @@ namespace akmon
 
   /**
    * Frictional contact by complementary equations, forward Lagrangian (Problem 2 or 3, Algorithm 1
-   * steps 2, 5 and 6): deformable surfaces and rigid planes. Interfaces are numbered contacts
+   * steps 2, 5 and 6): deformable surfaces and rigid bodies. Interfaces are numbered contacts
    * first, then obstacles.
    */
   class Contact
   {
   public:
-    /// Throws InputError for unknown surfaces and settings that exclude each other.
+    /**
+     * Throws InputError for unknown surfaces and settings that exclude each other.
+     * @param bodies  the rigid obstacles, which contact forces act on
+     */
     Contact(const Discretization &discretization,
             const ContactSolver &solver,
             const std::vector<SurfaceContact> &contacts,
-            const std::vector<RigidPlane> &planes,
+            std::vector<RigidBody> &bodies,
             const EssentialConditions &conditions);
 
     /// Step 2: pairs, normals and gaps at the positions state.x.
@@ -68,7 +72,8 @@ namespace akmon
     void
     resolve_friction(const NodalState &state, const double effective_mass_factor);
 
-    /// Step 7: dx = dx_f + dx_n + dx_tau (45)(66)(67); sums forces at nodes over ranks.
+    /// Step 7: dx = dx_f + dx_n + dx_tau (45)(66)(67); sums forces at nodes and on rigid bodies
+    /// over ranks.
     void
     add_increments(NodalState &state, const double effective_mass_factor);
 
@@ -134,8 +139,11 @@ namespace akmon
     reach_of_step(const NodalState &state, const double least_radius) const;
     void
     rebuild_candidates(const NodalState &state, const double reach);
+    double
+    fastest_motion(const NodalState &state) const;
     void
-    find_plane_pairs(const NodalState &state);
+    add_rigid_motions(ContactNodes::Field &field,
+                      RigidIncrement (RigidBody::*motion)() const) const;
     void
     warm_start(const std::vector<ContactPair> &previous);
     double
@@ -145,7 +153,15 @@ namespace akmon
     void
     solve_coupled(const NodalState &state);
     double
-    follow_segments(const NodalState &state);
+    follow_partners(const NodalState &state);
+    std::vector<Pose>
+    reached_poses(const ContactNodes::Field *response) const;
+    bool
+    reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const;
+    void
+    push_out(const NodalState &state, const double effective_mass_factor);
+    void
+    load_rigid_bodies();
     void
     decoupled_friction(ContactPair &pair,
                        const NodalState &state,
@@ -158,10 +174,11 @@ namespace akmon
     const Discretization &discretization;
     const ContactSolver &solver;
     const std::vector<SurfaceContact> &contacts;
-    const std::vector<RigidPlane> &planes;
+    std::vector<RigidBody> &bodies;
     std::vector<SurfaceSearch> searches;
-    std::vector<std::vector<BoundaryFace>> plane_faces;
-    std::vector<std::vector<std::pair<unsigned int, double>>> plane_slaves; ///< owned node, size
+    std::vector<ObstacleSearch> obstacle_searches; ///< one per body
+    std::vector<RigidTouch> rigid_touches;         ///< of bodies that may meet
+    const RigidNodes rigid_nodes;
     std::vector<unsigned int> surface_nodes;
     ContactNodes nodes;
     Mobility mobility;

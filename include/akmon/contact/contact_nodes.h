@@ -12,15 +12,22 @@ namespace akmon
    * their local numbers, then those that this rank may meet but other ranks own. Contact works on
    * short arrays in this numbering. Ids are the same numbering over all ranks; their order is that
    * of the global node numbers and does not depend on the number of ranks.
+   *
+   * Behind them stand nodes that all ranks have, for the motions of rigid bodies: their values are
+   * the same everywhere, and what ranks add to them is summed over all.
    */
   class ContactNodes
   {
   public:
     using Id = dealii::types::global_dof_index;
 
-    /// @param surface_nodes  owned nodes on any contact surface, sorted and unique
+    /**
+     * @param surface_nodes   owned nodes on any contact surface, sorted and unique
+     * @param n_common_nodes  nodes that all ranks have
+     */
     ContactNodes(const Discretization &discretization,
-                 const std::vector<unsigned int> &surface_nodes);
+                 const std::vector<unsigned int> &surface_nodes,
+                 const unsigned int n_common_nodes = 0);
 
     /// Take up nodes of other ranks by their ids (owned ones are ignored; collective).
     void
@@ -44,9 +51,16 @@ namespace akmon
       return parallel;
     }
 
-    /// Number of owned nodes and nodes of other ranks.
+    /// Number of owned nodes, nodes of other ranks and common nodes.
     unsigned int
     size() const
+    {
+      return first_common() + n_common;
+    }
+
+    /// Contact number of the first common node.
+    unsigned int
+    first_common() const
     {
       return owned.size() + partitioner->n_ghost_indices() / 3;
     }
@@ -153,6 +167,7 @@ namespace akmon
   private:
     MPI_Comm communicator;
     bool parallel;
+    unsigned int n_common;
     std::vector<unsigned int> owned; ///< local numbers
     std::vector<Id> ids_of_local;    ///< by local node
     std::shared_ptr<dealii::Utilities::MPI::Partitioner> partitioner;

@@ -3,7 +3,6 @@
 #include <akmon/contact/coulomb.h>
 
 #include <deal.II/base/parameter_handler.h>
-#include <deal.II/base/point.h>
 
 #include <string>
 #include <vector>
@@ -75,26 +74,5 @@ namespace akmon
     /// Throws InputError where a value is missing.
     void
     parse(dealii::ParameterHandler &prm, const std::string &section);
-  };
-
-
-  /// A fixed rigid plane that boundary parts may hit. Section "Obstacles/NAME".
-  struct RigidPlane : ContactLaw
-  {
-    dealii::Point<3> point;      ///< of the plane, length
-    dealii::Tensor<1, 3> normal; ///< unit vector to the side of the bodies
-
-    static void
-    declare(dealii::ParameterHandler &prm);
-
-    /// Throws InputError where a value is missing or inadmissible.
-    void
-    parse(dealii::ParameterHandler &prm, const std::string &section);
-
-    double
-    gap(const dealii::Tensor<1, 3> &x) const
-    {
-      return normal * (x - point);
-    }
   };
 } // namespace akmon

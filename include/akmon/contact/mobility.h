@@ -22,16 +22,40 @@ namespace akmon
     void
     reinit(const ContactNodes &nodes);
 
+    /// Set W of a common node; 1/mass, or 1/inertia of a rotation.
+    void
+    set_common(const unsigned int number, const dealii::SymmetricTensor<2, 3> &mobility)
+    {
+      W[number] = mobility;
+    }
+
+    /// Whether a node is common to all ranks, that is, of a rigid body.
+    bool
+    is_common(const unsigned int number) const
+    {
+      return number >= first_common;
+    }
+
+    /// Whether nothing moves a node.
+    bool
+    is_held(const unsigned int number) const
+    {
+      return trace(W[number]) == 0.;
+    }
+
     const dealii::SymmetricTensor<2, 3> &
     operator[](const unsigned int number) const
     {
       return W[number];
     }
 
-    /// 1/m of a node that can move at all, else zero.
+    /// The largest principal value of W: 1/m of a node that can move at all, else zero. An upper
+    /// bound of it for common nodes.
     double
     inverse_mass(const unsigned int number) const
     {
+      if (is_common(number))
+        return W[number].norm();
       // W = P/m with a projector P: |W|^2 = tr P/m^2, tr W = tr P/m.
       const double trace_of_W = trace(W[number]);
       return trace_of_W > 0. ? (W[number] * W[number]) / trace_of_W : 0.;
@@ -67,5 +91,6 @@ namespace akmon
     const Discretization &discretization;
     const EssentialConditions &conditions;
     std::vector<dealii::SymmetricTensor<2, 3>> W; ///< by contact number
+    unsigned int first_common = 0;
   };
 } // namespace akmon

@@ -21,6 +21,10 @@ namespace akmon
    * with the mean rotation theta of the segment's corners, r_k their places from their centre and I
    * = sum_k (r_k.r_k 1 - r_k r_k): G vanishes for rigid motions, and forces G^T t have neither a
    * resultant nor a moment, so that angular momentum is conserved exactly.
+   *
+   * A rigid body that moves has two contact nodes, one with its centre's motion u_c and one with
+   * its rotation theta: it moves by u_c + theta x r at the slave's place r from the centre. The
+   * force on the second is the moment r x t. Rotations stand last in the list of nodes.
    */
   struct ContactPair
   {
@@ -33,16 +37,22 @@ namespace akmon
     unsigned int row     = 0;
     unsigned int face    = 0;
     unsigned int n_nodes = 1;
-    std::array<unsigned int, 5> nodes; ///< contact numbers: slave, then masters
-    std::array<double, 5> weights;     ///< 1, then -N_k
+    std::array<unsigned int, 7> nodes; ///< contact numbers: slave, then masters, then rotations
+    std::array<double, 7> weights;     ///< 1, then -N_k; for rotations as for their body's centre
+    unsigned int n_rotations = 0;
+    std::array<dealii::Tensor<1, 3>, 2> radii; ///< of the rotations: r; length
 
     dealii::Tensor<1, 3> normal; ///< of the partner, outward
     double gap;                  ///< n . g_0, negative when penetrating; length
     double size;                 ///< of the cell faces at the slave; length
+    dealii::Tensor<1, 3> place;  ///< of the slave; length
 
     bool levered = false;
     dealii::Tensor<2, 3> lever;               ///< [o x] I^{-1}; 1/length
     std::array<dealii::Tensor<1, 3>, 4> arms; ///< r_k of the masters; length
+
+    dealii::Tensor<1, 3> plane_normal; ///< of the partner if rigid, in its frame
+    double plane_offset = 0.;          ///< the plane is plane_normal . X = plane_offset; length
 
     double curvature    = 0.; ///< second-order part of the gap the step reaches; length
     double target_gap   = 0.; ///< gap of which no more may be lost in this step; length
@@ -56,17 +66,26 @@ namespace akmon
       return normal_force * normal + tangential_force;
     }
 
+    /// Number of nodes that are no rotations.
+    unsigned int
+    n_points() const
+    {
+      return n_nodes - n_rotations;
+    }
+
     /// G u
     dealii::Tensor<1, 3>
     relative(const ContactNodes::Field &u) const
     {
       dealii::Tensor<1, 3> result;
-      for (unsigned int k = 0; k < n_nodes; ++k)
+      for (unsigned int k = 0; k < n_points(); ++k)
         result += weights[k] * u[nodes[k]];
+      for (unsigned int k = n_points(); k < n_nodes; ++k)
+        result += weights[k] * cross_product_3d(u[nodes[k]], radii[k - n_points()]);
       if (levered)
         {
           dealii::Tensor<1, 3> turn;
-          for (unsigned int k = 1; k < n_nodes; ++k)
+          for (unsigned int k = 1; k < n_points(); ++k)
             turn += cross_product_3d(arms[k - 1], u[nodes[k]]);
           result += lever * turn;
         }
@@ -77,6 +96,8 @@ namespace akmon
     dealii::Tensor<1, 3>
     at_node(const unsigned int k, const dealii::Tensor<1, 3> &t) const
     {
+      if (k >= n_points())
+        return weights[k] * cross_product_3d(radii[k - n_points()], t);
       if (levered && k > 0)
         return weights[k] * t + cross_product_3d(t * lever, arms[k - 1]);
       return weights[k] * t;

@@ -16,7 +16,9 @@ namespace akmon
    * normal force is free and of the scalar sum_k w_ik w_jk / m*_k, which acts on each component of
    * tangential forces, on those that stick. The latter leaves out that contact planes are turned
    * against each other, and levers. Pairs that slip count with their diagonal. A is singular where
-   * constraints repeat each other; a small shift makes the factors regular.
+   * constraints repeat each other; a small shift makes the factors regular. A rigid body couples
+   * all its pairs by six unknowns, which cost conjugate gradients as many iterations at most: it
+   * counts on the diagonal only.
    *
    * Factors are kept as long as they belong to the same pairs and free directions, from step to
    * step too: weights and normals that have changed a little make them no worse.
@@ -104,6 +106,7 @@ namespace akmon
       double coefficient;
     };
     std::vector<Entry> entries;
+    std::vector<double> rigid_share; ///< by pair: what rigid bodies add to the unit diagonal
     std::vector<FreeDirections> free;
     std::vector<unsigned int> row_of_pair; ///< in the factor in work
     std::vector<Eigen::Triplet<double>> triplets;

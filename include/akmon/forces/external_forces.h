@@ -37,7 +37,8 @@ namespace akmon
   struct BodyForce
   {
     SpaceTimeFunction acceleration; ///< length/time^2
-    double damping = 0.;            ///< eta, 1/time
+    double damping     = 0.;        ///< eta, 1/time
+    double damping_end = 0.;        ///< eta is zero from then on, time
 
     static void
     declare(dealii::ParameterHandler &prm);

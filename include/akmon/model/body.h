@@ -1,6 +1,7 @@
 #pragma once
 
 #include <akmon/model/mesh_library.h>
+#include <akmon/model/vector_function.h>
 
 #include <deal.II/base/parameter_handler.h>
 #include <deal.II/base/tensor.h>
@@ -36,6 +37,7 @@ namespace akmon
     dealii::Tensor<2, 3> rotation; ///< turns the body about its frame's origin before it is moved
     dealii::Tensor<1, 3> velocity; ///< initial velocity, length/time
     dealii::Tensor<1, 3> spin;     ///< initial angular velocity about the centre of volume, 1/time
+    SpaceTimeFunction velocity_field; ///< v(X) at the start, added to both; length/time
     std::string material;
     CellIntegration integration        = CellIntegration::mean_dilatation;
     HourglassControl hourglass_control = HourglassControl::stiffness;

@@ -30,6 +30,7 @@ namespace akmon
       const ExternalForces &external_forces;
       const EssentialConditions &conditions;
       const Contact &contact;
+      const std::vector<RigidBody> &rigid_bodies;
     };
 
     Monitor(const Case &parameters, const Watched &watched);
@@ -94,6 +95,8 @@ namespace akmon
   private:
     void
     account_work();
+    RigidBody::Work
+    rigid_work(RigidBody::Work (RigidBody::*of_body)() const) const;
     void
     sum_energies();
     void

@@ -2,6 +2,8 @@
 
 #include <akmon/model/nodal_state.h>
 
+#include <limits>
+
 namespace akmon
 {
   /**
@@ -18,8 +20,21 @@ namespace akmon
   class Fidcd
   {
   public:
-    /// @param damping  mass-proportional damping rate eta, 1/time
-    Fidcd(const Discretization &discretization, NodalState &state, const double damping);
+    /**
+     * @param damping      mass-proportional damping rate eta, 1/time
+     * @param damping_end  time from which on eta is zero
+     */
+    Fidcd(const Discretization &discretization,
+          NodalState &state,
+          const double damping,
+          const double damping_end = std::numeric_limits<double>::infinity());
+
+    /// eta at the level; 1/time.
+    double
+    damping_rate() const
+    {
+      return state.time < damping_end ? damping : 0.;
+    }
 
     /// Free increment of the starting step (28), from F_0 in state.force and v_0 in @p velocity.
     void
@@ -71,7 +86,7 @@ namespace akmon
   private:
     const Discretization &discretization;
     NodalState &state;
-    const double damping;
+    const double damping, damping_end;
     double mass_factor = 0.;
   };
 } // namespace akmon

@@ -72,4 +72,36 @@ namespace
     EXPECT_NEAR(history["momentum_z"].back(), -9.81 * 2. * 2., 1e-9 * 40.);
     EXPECT_NEAR(history["momentum_y"].back(), 3. * 2. * 2., 1e-4); // int 3 t m dt
   }
+
+
+  // 2 int rho x x dV over the brick, lumped at nodes 1/2 apart: 2 (2/3 + 4/12 (1/2)^2).
+  TEST(InitialVelocity, is_a_function_of_position)
+  {
+    const Table history = run_brick("subsection Bodies\n subsection brick\n"
+                                    "  set Velocity = 0, 0, 1\n"
+                                    "  set Velocity field = 3; 2*x; 0\n end\nend\n");
+    EXPECT_NEAR(history["momentum_x"].front(), 3. * 2., 1e-12);
+    EXPECT_NEAR(history["momentum_y"].front(), 0., 1e-12);
+    EXPECT_NEAR(history["momentum_z"].front(), 1. * 2., 1e-12);
+    EXPECT_NEAR(history["angular_momentum_z"].front(), 1.5, 1e-12);
+    EXPECT_NEAR(history["angular_momentum_z"].back(), 1.5, 1e-11);
+  }
+
+
+  // Momentum decays by exp(-eta t) until the damping ends, and stays from then on.
+  TEST(Damping, ends_at_its_time)
+  {
+    const Table history = run_brick("subsection Bodies\n subsection brick\n"
+                                    "  set Velocity = 3, 0, 0\n end\nend\n"
+                                    "subsection Body force\n set Damping = 2\n"
+                                    " set Damping end = 0.8\nend\n");
+    const double left   = 6. * std::exp(-2. * 0.8);
+    EXPECT_NEAR(history["momentum_x"].back(), left, 4e-3 * left);
+    const auto rows = history.rows_between(0.81, 2.);
+    for (const std::size_t i : rows)
+      EXPECT_NEAR(history["momentum_x"][i], history["momentum_x"].back(), 1e-12);
+    const double rest = history["momentum_x"].back();
+    EXPECT_NEAR(history["damping_dissipation"].back(), 9. - rest * rest / 4., 1e-9);
+    EXPECT_LT(std::abs(history["energy_error"].back()), 1e-9);
+  }
 } // namespace

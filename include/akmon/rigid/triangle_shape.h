@@ -1,0 +1,96 @@
+#pragma once
+
+#include <akmon/rigid/rigid_shape.h>
+#include <akmon/rigid/triangle_mesh.h>
+
+#include <memory>
+
+namespace akmon
+{
+  /**
+   * The solid within a closed surface of triangles, in the frame of its vertices. What is inside is
+   * told by the angle-weighted normals of the triangles at the closest point (Baerentzen and
+   * Aanaes, IEEE Trans. Vis. Comput. Graph. 11, 2005).
+   */
+  class TriangleShape : public RigidShape
+  {
+  public:
+    /// @param mesh  closed, normals outward: see make_closed()
+    explicit TriangleShape(TriangleMesh mesh);
+
+    ~TriangleShape() override;
+
+    SurfacePoint
+    closest(const dealii::Tensor<1, 3> &x) const override;
+
+    /// The closest part and, where the surface is concave, all faces that x lies above.
+    void
+    nearby(const dealii::Tensor<1, 3> &x,
+           const double within,
+           std::vector<SurfacePoint> &parts) const override;
+
+    void
+    nearby_from_inside(const dealii::Tensor<1, 3> &x,
+                       const double within,
+                       std::vector<SurfacePoint> &parts) const override;
+
+    /// Vertices, and edges that are not flat.
+    void
+    touch_points(const DistanceField &other,
+                 const double within,
+                 std::vector<TouchPoint> &points) const override;
+
+    double
+    radius() const override
+    {
+      return furthest;
+    }
+
+    MassProperties
+    mass_properties(const double density) const override;
+
+    const TriangleMesh &
+    surface() const
+    {
+      return mesh;
+    }
+
+  private:
+    struct Tree;
+
+    /// Triangles whose box is within a distance of x.
+    void
+    collect(const dealii::Tensor<1, 3> &x,
+            const double within,
+            std::vector<unsigned int> &triangles) const;
+    void
+    nearby_from(const double side,
+                const dealii::Tensor<1, 3> &x,
+                const double within,
+                std::vector<SurfacePoint> &parts) const;
+
+    void
+    find_sharp_edges();
+
+    const TriangleMesh mesh;
+    std::vector<std::array<unsigned int, 2>> sharp_edges; ///< numbers of their vertices
+    double furthest = 0., size = 0.;
+    std::unique_ptr<Tree> tree;
+  };
+
+
+  /// Where a point is closest to a triangle.
+  struct TrianglePoint
+  {
+    dealii::Tensor<1, 3> point;
+    double angle;  ///< of the triangle around the point: 2 pi inside, pi on edges, less at corners
+    bool interior; ///< neither on an edge nor at a corner
+  };
+
+  /// Closest point of a triangle (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
+  TrianglePoint
+  closest_on_triangle(const dealii::Tensor<1, 3> &x,
+                      const dealii::Tensor<1, 3> &a,
+                      const dealii::Tensor<1, 3> &b,
+                      const dealii::Tensor<1, 3> &c);
+} // namespace akmon

@@ -1,0 +1,254 @@
+#include <akmon/rigid/triangle_shape.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include "support/triangles.h"
+
+// Surfaces of triangles: STL files, repair, distances, mass.
+
+namespace
+{
+  using namespace akmon;
+  using namespace akmon::test;
+
+  std::string
+  failure_of(TriangleMesh mesh)
+  {
+    try
+      {
+        make_closed(mesh);
+      }
+    catch (const std::runtime_error &error)
+      {
+        return error.what();
+      }
+    return "none";
+  }
+
+
+  class StlFile : public ::testing::Test
+  {
+  protected:
+    void
+    TearDown() override
+    {
+      std::filesystem::remove(path);
+    }
+
+    TriangleMesh
+    read(const std::string &content) const
+    {
+      std::ofstream(path, std::ios::binary) << content;
+      return read_stl(path);
+    }
+
+    std::string
+    refusal(const std::string &content) const
+    {
+      try
+        {
+          read(content);
+        }
+      catch (const std::runtime_error &error)
+        {
+          return error.what();
+        }
+      return "none";
+    }
+
+    const std::string path = ::testing::TempDir() + "akmon_surface.stl";
+  };
+
+
+  TEST_F(StlFile, AsciiAndBinaryAreTheSame)
+  {
+    const TriangleMesh box = triangle_box(Vector({1., 2., 3.}));
+    for (const auto &content : {ascii_stl(box), binary_stl(box), binary_stl(box, "solid tricky")})
+      {
+        TriangleMesh mesh = read(content);
+        EXPECT_EQ(mesh.triangles.size(), 12u);
+        EXPECT_TRUE(make_closed(mesh).empty());
+        EXPECT_EQ(mesh.vertices.size(), 8u);
+        EXPECT_NEAR(mesh.volume(), 6., 1e-14);
+      }
+  }
+
+
+  TEST_F(StlFile, Refused)
+  {
+    EXPECT_EQ(refusal(""), "the file is empty or cannot be read");
+    EXPECT_EQ(refusal("solid nothing\nendsolid nothing\n"), "there are no triangles in it");
+    EXPECT_EQ(refusal("v 1 2 3\n"), "line 1 is not that of an STL file, ASCII or binary");
+    EXPECT_EQ(refusal("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n"),
+              "line 4 is not that of an STL file, ASCII or binary");
+    EXPECT_EQ(refusal("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nendloop\nendfacet"),
+              "line 6 is not that of an STL file, ASCII or binary");
+    const std::string whole = binary_stl(triangle_box(Vector({1., 1., 1.})));
+    EXPECT_NE(refusal(whole.substr(0, whole.size() - 7)), "none");
+    TriangleMesh not_a_number   = triangle_box(Vector({1., 1., 1.}));
+    not_a_number.vertices[3][1] = NAN;
+    EXPECT_NE(refusal(binary_stl(not_a_number)).find("not a number"), std::string::npos);
+    std::filesystem::remove(path);
+    EXPECT_THROW(read_stl(path), std::runtime_error);
+  }
+
+
+  TEST(TriangleMesh, HolesAreRefusedWithTheirPlace)
+  {
+    TriangleMesh mesh = triangle_box(Vector({2., 2., 2.}));
+    mesh.triangles.pop_back();
+    const std::string text = failure_of(mesh);
+    EXPECT_EQ(text.find("the surface has a hole: 3 edges with a triangle on one side only"), 0u);
+    EXPECT_NE(text.find("near ("), std::string::npos);
+  }
+
+
+  TEST(TriangleMesh, FinsAndFlatSurfacesAreRefused)
+  {
+    TriangleMesh fin = triangle_box(Vector({2., 2., 2.}));
+    fin.triangles.push_back(fin.triangles[0]);
+    std::swap(fin.triangles.back()[0], fin.triangles.back()[1]);
+    fin.triangles.push_back(fin.triangles[0]);
+    EXPECT_EQ(failure_of(fin).find("the surface touches itself: 3 edges"), 0u);
+
+    TriangleMesh flat;
+    flat.vertices  = {Vector({0., 0., 0.}), Vector({1., 0., 0.}), Vector({0., 1., 0.})};
+    flat.triangles = {{{0, 1, 2}}, {{0, 2, 1}}};
+    EXPECT_EQ(failure_of(flat).find("a part of the surface encloses no volume"), 0u);
+  }
+
+
+  TEST(TriangleMesh, FlippedNormalsAreTurned)
+  {
+    TriangleMesh mesh = triangle_box(Vector({1., 1., 1.}));
+    std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
+    std::swap(mesh.triangles[7][0], mesh.triangles[7][1]);
+    EXPECT_EQ(make_closed(mesh),
+              std::vector<std::string>{"2 triangles whose normals pointed inward turned round"});
+    EXPECT_NEAR(mesh.volume(), 1., 1e-14);
+
+    for (auto &triangle : mesh.triangles)
+      std::swap(triangle[0], triangle[1]);
+    EXPECT_EQ(make_closed(mesh),
+              std::vector<std::string>{"12 triangles whose normals pointed inward turned round"});
+    EXPECT_NEAR(mesh.volume(), 1., 1e-14);
+  }
+
+
+  // Normals of a cavity point into it, and a solid in the cavity is one again.
+  TEST(TriangleMesh, CavitiesAreHollow)
+  {
+    TriangleMesh mesh = triangle_box(Vector({3., 3., 3.}));
+    add(mesh, triangle_box(Vector({2., 2., 2.})));
+    add(mesh, triangle_box(Vector({1., 1., 1.})));
+    EXPECT_EQ(make_closed(mesh),
+              std::vector<std::string>{"12 triangles whose normals pointed inward turned round"});
+    EXPECT_NEAR(mesh.volume(), 27. - 8. + 1., 1e-12);
+    const TriangleShape shape(mesh);
+    EXPECT_NEAR(shape.closest(Vector({0.8, 0., 0.})).distance, 0.2, 1e-14);
+    EXPECT_NEAR(shape.closest(Vector({1.4, 0., 0.})).distance, -0.1, 1e-14);
+  }
+
+
+  // A T-junction is closed by a triangle of zero area; another has collapsed to a line.
+  TEST(TriangleMesh, TrianglesOfZeroArea)
+  {
+    TriangleMesh mesh = triangle_box(Vector({1., 1., 1.}));
+    const auto t      = mesh.triangles[0];
+    const auto middle = 0.5 * (mesh.vertices[t[0]] + mesh.vertices[t[1]]);
+    mesh.vertices.push_back(middle);
+    const unsigned int m = mesh.vertices.size() - 1;
+    mesh.triangles[0]    = {{t[0], m, t[2]}};
+    mesh.triangles.push_back({{m, t[1], t[2]}});
+    mesh.triangles.push_back({{t[0], t[1], m}}); // flat
+    mesh.triangles.push_back({{t[0], t[0], t[1]}});
+    EXPECT_EQ(make_closed(mesh), std::vector<std::string>{"2 triangles of zero area left out"});
+    const TriangleShape shape(mesh);
+    EXPECT_NEAR(shape.mass_properties(2.).mass, 2., 1e-14);
+    // Above the junction, where the flat triangle has no say.
+    const Vector outward = middle / middle.norm();
+    EXPECT_NEAR(shape.closest(middle + 0.1 * outward).distance, 0.1, 1e-12);
+    EXPECT_LT(shape.closest(middle - 0.1 * outward).distance, 0.);
+  }
+
+
+  // The surface of a box of triangles is that of the box, everywhere.
+  TEST(TriangleShape, DistancesToABox)
+  {
+    std::mt19937 generator(3);
+    std::uniform_real_distribution<double> number(-1.5, 1.5);
+    const Vector size({1., 2., 1.5});
+    TriangleMesh mesh = triangle_box(size);
+    make_closed(mesh);
+    const TriangleShape shape(mesh);
+    const BlockShape block(size, 0.);
+    EXPECT_NEAR(shape.radius(), block.radius(), 1e-14);
+    for (unsigned int i = 0; i < 5000; ++i)
+      {
+        const Vector x({number(generator), number(generator), number(generator)});
+        const auto actual = shape.closest(x), expected = block.closest(x);
+        EXPECT_NEAR(actual.distance, expected.distance, 1e-14);
+        EXPECT_NEAR((actual.normal - expected.normal).norm(), 0., 1e-10);
+      }
+    // On faces, edges and corners themselves.
+    EXPECT_NEAR((shape.closest(Vector({0.5, 0.3, 0.2})).normal - Vector({1., 0., 0.})).norm(),
+                0.,
+                1e-14);
+    EXPECT_NEAR((shape.closest(Vector({0.5, 1., 0.2})).normal -
+                 Vector({1., 1., 0.}) / std::sqrt(2.))
+                  .norm(),
+                0.,
+                1e-12);
+    EXPECT_NEAR((shape.closest(Vector({0.5, 1., 0.75})).normal -
+                 Vector({1., 1., 1.}) / std::sqrt(3.))
+                  .norm(),
+                0.,
+                1e-12);
+  }
+
+
+  // In a valley both slopes are near; on a ridge only the closest point counts.
+  TEST(TriangleShape, ValleysHaveTwoSides)
+  {
+    TriangleMesh mesh = triangle_valley();
+    ASSERT_TRUE(make_closed(mesh).empty());
+    const TriangleShape shape(mesh);
+    std::vector<SurfacePoint> parts;
+    shape.nearby(Vector({0.01, 0., 0.1}), 0.2, parts);
+    ASSERT_EQ(parts.size(), 2u);
+    EXPECT_NEAR(parts[0].normal * parts[1].normal, 0., 1e-12);
+    EXPECT_NEAR(parts[0].distance, 0.09 / std::sqrt(2.), 1e-12);
+    EXPECT_NEAR(parts[1].distance, 0.11 / std::sqrt(2.), 1e-12);
+    parts.clear();
+    shape.nearby(Vector({0.01, 0., 5.}), 0.2, parts);
+    EXPECT_TRUE(parts.empty());
+    TriangleMesh box = triangle_box(Vector({2., 2., 2.}));
+    make_closed(box);
+    TriangleShape(box).nearby(Vector({1.1, 1.1, 1.1}), 0.2, parts);
+    EXPECT_EQ(parts.size(), 1u);
+    parts.clear();
+    TriangleShape(box).nearby_from_inside(Vector({0.9, 0.9, 0.5}), 0.2, parts);
+    EXPECT_EQ(parts.size(), 2u);
+  }
+
+
+  TEST(TriangleShape, MassOfABox)
+  {
+    TriangleMesh mesh = triangle_box(Vector({1., 2., 3.}));
+    for (auto &x : mesh.vertices)
+      x += Vector({5., -7., 11.});
+    make_closed(mesh);
+    const auto actual   = TriangleShape(mesh).mass_properties(3.);
+    const auto expected = BlockShape(Vector({1., 2., 3.}), 0.).mass_properties(3.);
+    EXPECT_NEAR(actual.mass, expected.mass, 1e-13 * expected.mass);
+    EXPECT_NEAR((actual.centre - dealii::Point<3>(5., -7., 11.)).norm(), 0., 1e-13);
+    EXPECT_NEAR((actual.inertia - expected.inertia).norm(), 0., 1e-12 * expected.mass);
+  }
+} // namespace

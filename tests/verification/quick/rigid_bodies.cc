@@ -1,0 +1,85 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/run_case.h"
+
+// Free rigid bodies among themselves: rolling and sliding cylinders, a box that falls.
+
+using namespace akmon::test;
+
+namespace
+{
+  constexpr double g = 9.81, pi = 3.14159265358979323846;
+  const double across = g * std::cos(pi / 6.), along = g * std::sin(pi / 6.);
+
+
+  TEST(RollingCylinder, RollsWithTwoThirds)
+  {
+    const Table history = run_case(shipped("rolling_cylinder"));
+    for (std::size_t i = 0; i < history.n_rows(); ++i)
+      {
+        const double exact = 2. / 3. * along * history["time"][i];
+        EXPECT_NEAR(history["cylinder.velocity_x"][i], exact, 1e-11);
+        EXPECT_NEAR(0.5 * history["cylinder.spin_y"][i], exact, 1e-11);
+        EXPECT_NEAR(history["cylinder.displacement_z"][i], 0., 1e-13);
+        EXPECT_LT(std::abs(history["energy_error"][i]), 1e-12);
+      }
+    EXPECT_NEAR(history["slope.force_z"].back(), 500. * pi * across, 1e-3); // on the cylinder
+  }
+
+
+  // Below mu = tan/3 it slides: a = g (sin - mu cos), R alpha = 2 mu g cos.
+  TEST(RollingCylinder, SlidesWithTooLittleFriction)
+  {
+    constexpr double mu = 0.1;
+    const Table history = run_case(shipped("rolling_cylinder"),
+                                   {"Obstacles/slope/Friction coefficient=0.1"});
+    EXPECT_NEAR(history["cylinder.velocity_x"].back(), along - mu * across, 1e-8);
+    EXPECT_NEAR(0.5 * history["cylinder.spin_y"].back(), 2. * mu * across, 1e-8);
+    // What friction takes is its force times the slip.
+    EXPECT_NEAR(history["friction_dissipation"].back(),
+                500. * pi * mu * across * 0.5 * (along - 3. * mu * across),
+                1e-3 * 500. * pi);
+  }
+
+
+  TEST(SpinningBox, EnergiesAddUp)
+  {
+    const Table history = run_case(shipped("spinning_box"));
+    const auto in_air   = history.rows_between(0., 0.3);
+    ASSERT_GT(in_air.size(), 10u);
+    for (const std::size_t i : in_air)
+      {
+        EXPECT_NEAR(history["momentum_x"][i], 240., 1e-10);
+        EXPECT_NEAR(history["momentum_z"][i], -480. * g * history["time"][i], 1e-9);
+      }
+    for (std::size_t i = 0; i < history.n_rows(); ++i)
+      {
+        EXPECT_LT(std::abs(history["energy_error"][i]), 1e-12);
+        EXPECT_LT(history["max_penetration_rel"][i], 1e-9);
+        EXPECT_NEAR(history["momentum_x"][i], 240., 1e-9); // no friction
+      }
+    // It rests on its face, its weight on the floor.
+    EXPECT_NEAR(history["floor.force_z"].back(), 480. * g, 1e-3);
+    EXPECT_NEAR(history["box.displacement_z"].back(), 0.5 - 1.5, 1e-9);
+    EXPECT_NEAR(history["box.spin_x"].back(), 0., 1e-9);
+  }
+
+
+  TEST(SphereOnSlab, LiesBetweenHalfSpaceAndBondedLayer)
+  {
+    const Table history = run_case(shipped("sphere_on_slab"));
+    const auto &force   = history["sphere.force_z"];
+    const auto highest  = std::min_element(force.begin(), force.end()) - force.begin();
+    const double d      = -history["sphere.displacement_z"][highest];
+    const double hertz  = 4. / 3. / 0.91 * std::pow(d, 1.5);
+    std::cout << "  force " << -4. * force[highest] << ", Hertz " << hertz << std::endl;
+    EXPECT_GT(-4. * force[highest], hertz);
+    EXPECT_LT(-4. * force[highest], 1.208 * hertz); // a layer that is infinite sideways
+    EXPECT_GT(history["sphere.velocity_z"].back(), 0.0095);
+    EXPECT_LT(history["sphere.velocity_z"].back(), 0.01);
+    EXPECT_EQ(force.back(), 0.);
+  }
+} // namespace
