@@ -73,14 +73,14 @@ namespace
         const auto contact  = rows_in_contact(history);
 
         const double noise = largest(history["left_face.velocity_x"], contact);
-        EXPECT_LE(noise, 1e-3 * v0);
+        EXPECT_LE(noise, 1e-9 * v0);
         const double penetration = largest(history["max_penetration_rel"], all);
-        EXPECT_LE(penetration, 1e-9);
+        EXPECT_LE(penetration, 1e-12);
         for (const char *const axis : {"x", "y", "z"})
           EXPECT_LE(largest(history[std::string("momentum_") + axis], all),
                     1e-12 * mass_of_bar * v0);
         const double energy_error = largest(history["energy_error"], all);
-        EXPECT_LE(energy_error, 1e-3);
+        EXPECT_LE(energy_error, 2e-4);
 
         double iterations = 0., mean_force = 0.;
         for (const std::size_t i : contact)
@@ -88,8 +88,8 @@ namespace
             iterations += history["contact_iterations"][i] / contact.size();
             mean_force -= history["interface.force_x"][i] / contact.size();
           }
-        // The aim of 30 iterations a step is missed on 10 of the 49 meshes and so only reported.
-        EXPECT_NEAR(mean_force, force, 0.01 * force);
+        EXPECT_LE(iterations, 30.);
+        EXPECT_NEAR(mean_force, force, 1e-3 * force);
 
         worst_noise       = std::max(worst_noise, noise);
         worst_penetration = std::max(worst_penetration, penetration);

@@ -62,9 +62,13 @@ namespace
                                               "Contact/interface/Pass=single"});
     const double error        = stress_error(run);
     if (lower % upper == 0)
-      EXPECT_LE(error, 1e-6);
+      {
+        EXPECT_LE(error, 1e-6);
+      }
     else
-      EXPECT_GE(error, 1e-2); // else the documents are wrong
+      {
+        EXPECT_GE(error, 1e-2); // else the documents are wrong
+      }
   }
 
 
