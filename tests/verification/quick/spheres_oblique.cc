@@ -37,7 +37,7 @@ namespace
     EXPECT_GE(least, -1e-12);
     EXPECT_GT(friction.back(), 0.01 * energy);
 
-    // Between full stick, v_t' = 5/7 v_t, and full slip, v_t' = v_t - mu (v_n + v_n').
+    // No more than full slip takes, v_t' = v_t - mu (v_n + v_n').
     const auto velocity = velocities_of_bodies(*run.simulation);
     report("tangential velocity after, over before", velocity[0][1] / v_t);
     report("normal velocity after, over before", -velocity[0][0] / v);
