@@ -364,7 +364,9 @@ namespace akmon
           }
         last_faces[s]         = partner.face;
         const double distance = partner.projection.offset.norm();
-        if (distance > 2. * reach)
+        // Whatever is inside stays under watch.
+        const bool outside = partner.projection.offset * shapes[partner.face].normal > 0.;
+        if (outside && distance > 2. * reach)
           rest_until[s] = travelled + 0.5 * (distance - reach);
         if (!complete(x, s, partner))
           continue;
