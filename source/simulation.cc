@@ -67,10 +67,10 @@ namespace akmon
   {
     initial_frequency_squared = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
                                                     communicator);
-    refuse_unstable_step();
     refuse_body_overlap(discretization);
     contact.search(state);
     contact.refuse_initial_overlap(state);
+    refuse_unstable_step();
     // The probes are the only part of the output that the input can make fail.
     Probes(parameters.probes, discretization, internal_forces, integrator);
   }
