@@ -300,7 +300,13 @@ namespace akmon
                                    [](const auto &contact) { return contact.masters; }) ||
                                any(parameters.obstacles,
                                    [](const auto &obstacle) { return obstacle.slaves; });
-          if (held || touched || loaded)
+          // Cases about rigid bodies alone have an onlooker, as a case has at least one body.
+          const bool onlooker = std::any_of(parameters.obstacles.begin(),
+                                            parameters.obstacles.end(),
+                                            [](const auto &obstacle) {
+                                              return obstacle.motion != Obstacle::Motion::fixed;
+                                            });
+          if (held || touched || loaded || onlooker)
             continue;
           if (weight)
             warnings.push_back("body '" + name +
