@@ -62,18 +62,6 @@ namespace akmon
 
 
   void
-  PairPreconditioner::start_afresh()
-  {
-    for (Factor *const factor : {&normal, &tangential})
-      {
-        factor->members.clear();
-        factor->keys.clear();
-        factor->valid = factor->old = false;
-      }
-  }
-
-
-  void
   PairPreconditioner::reinit(const std::vector<FreeDirections> &new_free)
   {
     free                = new_free;

@@ -351,13 +351,6 @@ namespace akmon
           every.insert(of_body.at("all").begin(), of_body.at("all").end());
         return every;
       }
-    if (part == "all")
-      {
-        std::set<types::boundary_id> every;
-        for (const auto &of_body : parts)
-          every.insert(of_body.at("all").begin(), of_body.at("all").end());
-        return every;
-      }
     const auto colon        = part.find(':');
     const std::string name  = colon == std::string::npos ? "all" : part.substr(colon + 1);
     const unsigned int body = body_index(section, key, part.substr(0, colon));

@@ -12,7 +12,7 @@ namespace akmon
   /**
    * The coupled contact problem of a step (Problem 2, (72)-(75)): normal and friction forces of all
    * pairs at once with the full Delassus operator. Constraints may repeat each other (symmetric
-   * passes): forces are then not unique, increments are.
+   * passes): a small compliance makes forces unique.
    */
   class CoupledSolver
   {
@@ -52,7 +52,7 @@ namespace akmon
     void
     start_afresh()
     {
-      preconditioner.start_afresh();
+      preconditioner.forget();
       iterations_when_new = 0;
     }
 

@@ -35,12 +35,6 @@ namespace akmon
       return scales;
     }
 
-    const ContactPair &
-    pair(const std::size_t i) const
-    {
-      return *pairs[i];
-    }
-
     /// An upper bound of the norm of the scaled operator, the same on all ranks (collective).
     double
     norm_bound();

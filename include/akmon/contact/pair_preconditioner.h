@@ -44,10 +44,6 @@ namespace akmon
     void
     forget();
 
-    /// As newly made.
-    void
-    start_afresh();
-
     /// Whether factors of an earlier step are in use.
     bool
     is_old() const

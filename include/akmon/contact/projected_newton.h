@@ -206,8 +206,6 @@ namespace akmon
       for (unsigned int k = 0; k < most_limits && residual > tolerance && n_applications < limit;
            ++k)
         {
-          follow_limits(t);
-          residual = measure(t);
           while (residual > 0.5 * tolerance && n_applications < limit)
             {
               choose_directions(t);
