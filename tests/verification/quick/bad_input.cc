@@ -215,7 +215,8 @@ end
      {"set_unknown_key",
       {},
       {"Time/Stop=1"},
-      {"--set [Time] Stop = 1: there is no such key; allowed are End, Safety factor, Step"}},
+      {"--set [Time] Stop = 1: there is no such key; allowed are Allow unstable step, "
+       "End, Safety factor, Smallest step, Step"}},
      {"set_unknown_section",
       {},
       {"Tyme/End=1"},
