@@ -96,6 +96,8 @@ namespace akmon
   {
     prepared  = false;
     travelled = 0.;
+    for (auto &search : obstacle_searches)
+      search.forget_rests();
     coupled.start_afresh();
   }
 } // namespace akmon

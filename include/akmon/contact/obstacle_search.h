@@ -52,6 +52,14 @@ namespace akmon
                const double travelled,
                std::vector<ContactPair> &pairs);
 
+    /// Look at all slaves again: what was travelled is counted from zero.
+    void
+    forget_rests()
+    {
+      for (auto &slave : slaves)
+        slave.clear_of = 0.;
+    }
+
   private:
     struct Slave
     {
