@@ -213,6 +213,13 @@ namespace akmon
       return;
     const unsigned int first = parts.size();
     parts.push_back(nearest);
+    // Whoever stays before the closest point's plane stays out of all that lies behind it.
+    const auto foot        = x - nearest.distance * nearest.normal;
+    const auto rises_above = [&](const std::array<unsigned int, 3> &t) {
+      return std::any_of(t.begin(), t.end(), [&](const unsigned int v) {
+        return (mesh.vertices[v] - foot) * nearest.normal > 1e-9 * size;
+      });
+    };
     for (const unsigned int i : candidates)
       {
         const auto &t         = mesh.triangles[i];
@@ -222,7 +229,7 @@ namespace akmon
                                             mesh.vertices[t[1]],
                                             mesh.vertices[t[2]]);
         const double distance = (x - at.point) * n;
-        if (!at.interior || distance > within || distance < -tolerated * within)
+        if (!at.interior || distance > within || distance < -tolerated * within || !rises_above(t))
           continue;
         if (std::none_of(parts.begin() + first, parts.end(), [&](const SurfacePoint &part) {
               return part.normal * n > 1. - 1e-9;

@@ -233,6 +233,10 @@ namespace
     make_closed(box);
     TriangleShape(box).nearby(Vector({1.1, 1.1, 1.1}), 0.2, parts);
     EXPECT_EQ(parts.size(), 1u);
+    // By rounding inside, before a convex edge: the closest side alone.
+    parts.clear();
+    TriangleShape(box).nearby(Vector({0.99999, 0.5, 1. - 1e-16}), 0.2, parts);
+    EXPECT_EQ(parts.size(), 1u);
     parts.clear();
     TriangleShape(box).nearby_from_inside(Vector({0.9, 0.9, 0.5}), 0.2, parts);
     EXPECT_EQ(parts.size(), 2u);
