@@ -78,10 +78,13 @@ namespace akmon
     if (!automatic())
       return rest > rounding * fixed_step && rest < fixed_step * (1. + rounding) ? rest :
                                                                                    fixed_step;
-    const double step = safety_factor * 2. / std::sqrt(largest_frequency_squared);
-    if (rest <= rounding * step || rest >= 2. * step)
+    // Central differences keep an energy that depends on the step: a last step of a tenth of the
+    // others would show what no step showed before it.
+    constexpr double sharing = 100.;
+    const double step        = safety_factor * 2. / std::sqrt(largest_frequency_squared);
+    if (rest <= rounding * step || rest >= sharing * step)
       return step;
-    return rest > step ? 0.5 * rest : rest;
+    return rest / std::ceil(rest / step * (1. - rounding));
   }
 
 

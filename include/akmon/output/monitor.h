@@ -99,6 +99,13 @@ namespace akmon
     rigid_work(RigidBody::Work (RigidBody::*of_body)() const) const;
     void
     sum_energies();
+    double
+    energy_of_rounding() const;
+    double
+    energy_error() const
+    {
+      return (balance.sum() - initial_energy) / largest_energy;
+    }
     void
     write_row();
     std::vector<double>

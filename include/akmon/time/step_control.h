@@ -31,7 +31,7 @@ namespace akmon
 
     /**
      * The step from time @p t on. The last step ends at `end` exactly; an automatic run shares the
-     * rest between its last two steps so that none is tiny.
+     * rest among its last hundred steps, so that none is much smaller than those before.
      * @param largest_frequency_squared  omega_max^2 over all ranks, 1/time^2
      */
     double

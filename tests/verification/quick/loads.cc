@@ -47,6 +47,18 @@ namespace
   }
 
 
+  // Nothing but rounding moves at first, which is no error of the energy balance.
+  TEST(SurfaceLoad, may_rise_from_zero_on_a_body_at_rest)
+  {
+    const Table history = run_brick(load("pressure", "brick:x+", "0.5e-6*(1 - cos(pi*t))") +
+                                    "subsection Output\n set History steps = 1\nend\n");
+    // int_0^2 of the pressure
+    EXPECT_NEAR(history["momentum_x"].back(), -1e-6, 1e-9);
+    for (const double error : history["energy_error"])
+      EXPECT_NEAR(error, 0., 1e-2);
+  }
+
+
   TEST(SurfaceLoad, pressure_all_around_is_in_balance)
   {
     const Table history = run_brick(load("pressure", "brick", "0.5"));
