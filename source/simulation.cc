@@ -229,6 +229,7 @@ namespace akmon
       const StageTimer::Scope timing(stages.output);
       monitor->write(parameters.time.finished(state.time));
     }
+    warn_of_soft_springs();
     show_progress();
   }
 
@@ -334,6 +335,8 @@ namespace akmon
     summary.set("max_penetration", extremes.penetration);
     summary.set("max_penetration_rel", extremes.penetration_relative);
     summary.set("energy_error", extremes.energy_error);
+    if (parameters.contact_solver.type == ContactSolver::Type::penalty)
+      summary.set("penalty_step_cut", penalty_cut);
     char hash[20];
     std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(state_hash()));
     summary.set("state_hash", std::string(hash));

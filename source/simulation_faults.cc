@@ -3,6 +3,7 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -63,9 +64,57 @@ namespace akmon
       count_eroded();
     internal_forces.govern(of_all[0]);
     keep_step_from_collapsing(of_all[0]);
-    state.dt_next = parameters.time.choose(state.time, of_all[0]);
+    state.dt_next = step_with_penalty(of_all[0]);
     if (!(state.dt_next > 0.))
       throw RunError(ExitStatus::not_a_number, level_text() + "the time step is not a number");
+  }
+
+
+  // Penalty springs stiffen the nodes they act on and cut the step, a fixed one too.
+  double
+  Simulation::step_with_penalty(const double frequency_squared)
+  {
+    const double without = parameters.time.choose(state.time, frequency_squared);
+    if (parameters.contact_solver.type != ContactSolver::Type::penalty)
+      return without;
+    const auto limit      = contact.penalty_limit();
+    const double together = frequency_squared + limit.frequency_squared;
+    const double step     = parameters.time.choose(state.time,
+                                               together,
+                                               limit.frequency_squared > 0. &&
+                                                 !parameters.time.unstable);
+    const double cut      = std::sqrt(frequency_squared / together);
+    penalty_cut           = std::min(penalty_cut, cut);
+    // At the first one that shows, and again where it has become much shorter.
+    if (cut < (told_cut == 1. ? 0.99 : 0.8 * told_cut))
+      {
+        told_cut = cut;
+        for (const auto &where : Utilities::MPI::all_gather(communicator, limit.where))
+          if (!where.empty())
+            {
+              screen.message(
+                level_text() + "penalty springs of " + where + " cut the critical step to " +
+                shortest_text(std::round(1e3 * cut) / 10.) + " % of that of the cells");
+              break;
+            }
+      }
+    return step;
+  }
+
+
+  void
+  Simulation::warn_of_soft_springs()
+  {
+    if (soft_springs_told || parameters.contact_solver.type != ContactSolver::Type::penalty ||
+        !monitor->beyond_penetration_bound())
+      return;
+    soft_springs_told = true;
+    screen.warning(level_text() +
+                   "penalty contact lets surfaces penetrate by more than [Output] "
+                   "Penetration bound = " +
+                   shortest_text(parameters.output.penetration_bound) +
+                   " of the cell size; deepest is " + monitor->deepest_place() +
+                   ". Raise [Contact solver] Penalty scale, or use Type = coupled");
   }
 
 

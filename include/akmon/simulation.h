@@ -63,6 +63,12 @@ namespace akmon
       return internal_forces;
     }
 
+    const Contact &
+    watch_contact() const
+    {
+      return contact;
+    }
+
     const Monitor &
     watch() const
     {
@@ -106,6 +112,10 @@ namespace akmon
     keep_step_from_collapsing(double &frequency_squared);
     void
     count_eroded();
+    double
+    step_with_penalty(const double frequency_squared);
+    void
+    warn_of_soft_springs();
     std::string
     level_text() const;
 
@@ -132,6 +142,9 @@ namespace akmon
     unsigned long n_cells = 0, first_step = 0;     ///< first_step: where this part of the run began
     unsigned long n_eroded = 0, n_eroded_here = 0; ///< of all ranks, of this one
     double initial_frequency_squared = 0.;         ///< largest omega^2 of all ranks at the start
+    double penalty_cut     = 1.;    ///< least critical step with penalty springs over that without
+    double told_cut        = 1.;    ///< the last one on the screen
+    bool soft_springs_told = false; ///< that penetrations are beyond their bound
 
     struct Stages
     {

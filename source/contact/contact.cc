@@ -1,3 +1,4 @@
+#include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -73,7 +74,12 @@ namespace akmon
             if (touch.get_interface() == contacts.size() + i)
               touch.find_pairs(nodes, rigid_nodes, reversed, reach_of_obstacles, pairs);
       }
-    if (solver.type == ContactSolver::Type::coupled)
+    if (bonds->exist())
+      pairs.erase(std::remove_if(pairs.begin(),
+                                 pairs.end(),
+                                 [&](const ContactPair &pair) { return bonds->hold(pair); }),
+                  pairs.end());
+    if (solver.type != ContactSolver::Type::decoupled)
       warm_start(previous);
   }
 

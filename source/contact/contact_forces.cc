@@ -1,9 +1,11 @@
+#include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 // Steps 5 to 7 of Contact: forces and what they do.
 
@@ -43,10 +45,8 @@ namespace akmon
 
 
   void
-  Contact::resolve_normal(const NodalState &state, const double effective_mass_factor)
+  Contact::set_rigid_mobilities()
   {
-    nodes.gather(state.dx_next, dx_free);
-    add_rigid_motions(dx_free, &RigidBody::next);
     for (unsigned int i = 0; i < bodies.size(); ++i)
       if (bodies[i].moves())
         {
@@ -54,6 +54,25 @@ namespace akmon
           mobility.set_common(first, bodies[i].translation_mobility());
           mobility.set_common(first + 1, bodies[i].rotation_mobility());
         }
+  }
+
+
+  void
+  Contact::resolve_normal(const NodalState &state, const double effective_mass_factor)
+  {
+    nodes.gather(state.dx_next, dx_free);
+    if (bonds->exist())
+      {
+        bonds->begin_step(state, effective_mass_factor, dx_free);
+        nodes.update_ghosts(dx_free);
+      }
+    add_rigid_motions(dx_free, &RigidBody::next);
+    set_rigid_mobilities();
+    if (solver.type == ContactSolver::Type::penalty)
+      {
+        penalty_normal();
+        return;
+      }
     set_target_gaps(state);
     if (solver.type == ContactSolver::Type::coupled)
       {
@@ -236,6 +255,11 @@ namespace akmon
           solve_coupled(state);
         return;
       }
+    if (solver.type == ContactSolver::Type::penalty)
+      {
+        penalty_friction(state);
+        return;
+      }
     for (auto &pair : pairs)
       if (pair.normal_force > 0.)
         decoupled_friction(pair, state, effective_mass_factor);
@@ -269,7 +293,8 @@ namespace akmon
   void
   Contact::add_increments(NodalState &state, const double effective_mass_factor)
   {
-    push_out(state, effective_mass_factor);
+    if (solver.type != ContactSolver::Type::penalty)
+      push_out(state, effective_mass_factor);
     load_rigid_bodies();
     contributions.clear();
     for (const auto &pair : pairs)
@@ -295,6 +320,25 @@ namespace akmon
     for (const auto &force : forces)
       {
         const auto increment = (force.normal + force.tangential) /
+                               (discretization.mass[force.node] * effective_mass_factor);
+        for (unsigned int d = 0; d < 3; ++d)
+          state.dx_next.local_element(3 * force.node + d) += increment[d];
+      }
+    add_bond_forces(state, effective_mass_factor);
+  }
+
+
+  // Of the bonds, which hold what contact moves too.
+  void
+  Contact::add_bond_forces(NodalState &state, const double effective_mass_factor)
+  {
+    std::map<unsigned int, Tensor<1, 3>> of_contact;
+    if (bonds->exist())
+      for (const auto &force : forces)
+        of_contact[force.node] = force.normal + force.tangential;
+    for (const auto &force : bonds->finish_step(state, effective_mass_factor, of_contact))
+      {
+        const auto increment = force.sum() /
                                (discretization.mass[force.node] * effective_mass_factor);
         for (unsigned int d = 0; d < 3; ++d)
           state.dx_next.local_element(3 * force.node + d) += increment[d];
@@ -342,6 +386,12 @@ namespace akmon
         const auto step = at_node(increment, force.node);
         sum.normal += force.normal * step;
         sum.tangential += force.tangential * step;
+      }
+    for (const auto &force : bonds->nodal_forces())
+      {
+        const auto step = at_node(increment, force.node);
+        sum.holding += force.holding * step;
+        sum.failing += force.failing * step;
       }
     return sum;
   }

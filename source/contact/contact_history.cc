@@ -1,3 +1,4 @@
+#include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
 
 #include <algorithm>
@@ -63,6 +64,7 @@ namespace akmon
                      [&](const std::size_t i, double *const row) {
                        to_row(*carrying[i], discretization.global_node(carrying[i]->slave), row);
                      });
+    bonds->save(checkpoint);
   }
 
 
@@ -87,6 +89,7 @@ namespace akmon
       return std::tie(a.interface, a.reversed, a.slave_id, a.slot) <
              std::tie(b.interface, b.reversed, b.slave_id, b.slot);
     });
+    bonds->restore(checkpoint);
     forget_shortcuts();
   }
 

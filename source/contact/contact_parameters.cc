@@ -3,6 +3,8 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <limits>
+
 namespace akmon
 {
   using dealii::Patterns::Anything;
@@ -10,15 +12,32 @@ namespace akmon
   using dealii::Patterns::List;
   using dealii::Patterns::Selection;
 
+  namespace
+  {
+    // A positive number or 'infinite'.
+    double
+    strength(dealii::ParameterHandler &prm, const std::string &section, const std::string &key)
+    {
+      const std::string text = prm.get(key);
+      if (text == "infinite")
+        return std::numeric_limits<double>::infinity();
+      if (!Double(0.).match(text) || !(dealii::Utilities::string_to_double(text) > 0.))
+        throw InputError(section, key, text, "allowed are positive numbers or 'infinite'");
+      return dealii::Utilities::string_to_double(text);
+    }
+  } // namespace
+
+
   void
   ContactSolver::declare(dealii::ParameterHandler &prm)
   {
     prm.declare_entry(
       "Type",
       "coupled",
-      Selection("coupled|decoupled"),
-      "Contact forces of all pairs at once (exact for any meshes), or every pair alone "
-      "as in the paper (exact for node pairs and rigid planes only)");
+      Selection("coupled|decoupled|penalty"),
+      "Contact forces of all pairs at once (exact for any meshes), every pair alone "
+      "as in the paper (exact for node pairs and rigid planes only), or springs against "
+      "penetration as in common explicit codes (a baseline)");
     prm.declare_entry(
       "Tolerance",
       "1e-10",
@@ -35,16 +54,31 @@ namespace akmon
       Double(0.),
       "Speed at which a penetration found by the search is taken back, relative to the "
       "dilatational wave speed (dimensionless); it never grows");
+    prm.declare_entry(
+      "Penalty scale",
+      "0.1",
+      Double(0.),
+      "Scale f_s of the stiffness f_s K A^2/V of penalty springs, with bulk modulus K, "
+      "area A and volume V of the softer side's cell (dimensionless)");
   }
 
 
   void
   ContactSolver::parse(dealii::ParameterHandler &prm)
   {
-    type          = prm.get("Type") == "coupled" ? Type::coupled : Type::decoupled;
-    tolerance     = prm.get_double("Tolerance");
-    limit         = prm.get_integer("Maximum iterations");
-    release_speed = prm.get_double("Release speed");
+    const std::string name = prm.get("Type");
+    type                   = name == "coupled"   ? Type::coupled :
+                             name == "decoupled" ? Type::decoupled :
+                                                   Type::penalty;
+    tolerance              = prm.get_double("Tolerance");
+    limit                  = prm.get_integer("Maximum iterations");
+    release_speed          = prm.get_double("Release speed");
+    penalty_scale          = prm.get_double("Penalty scale");
+    if (!(penalty_scale > 0.))
+      throw InputError("Contact solver",
+                       "Penalty scale",
+                       prm.get("Penalty scale"),
+                       "allowed are positive numbers");
   }
 
 
@@ -123,6 +157,31 @@ namespace akmon
       Double(0., 1.),
       "How far outside the rim of the master surface a slave node is still in contact "
       "(relative to the size of the face)");
+    prm
+      .declare_entry("Type",
+                     "contact",
+                     Selection("contact|tied"),
+                     "Whether the surfaces only touch, or are bonded where they meet at the start; "
+                     "bonds that break become contact");
+    prm.declare_entry("Normal strength",
+                      "infinite",
+                      Anything(),
+                      "Normal stress N at which a bond fails, with (t_n/N)^2 + (t_s/S)^2 = 1, or "
+                      "'infinite' (stress; tied)");
+    prm.declare_entry("Shear strength",
+                      "infinite",
+                      Anything(),
+                      "Shear stress S at which a bond fails, or 'infinite' (stress; tied)");
+    prm.declare_entry("Fracture energy",
+                      "0",
+                      Double(0.),
+                      "Energy G a failing bond takes while its strength falls to nothing; 0: it is "
+                      "gone at once (energy/area; tied)");
+    prm.declare_entry("Bond distance",
+                      "0.05",
+                      Double(0., 1.),
+                      "How far apart points of tied surfaces may be at the start to be bonded "
+                      "(relative to the size of the face)");
     ContactLaw::declare(prm);
   }
 
@@ -137,9 +196,14 @@ namespace akmon
       throw InputError(section, "Slave", "(none)", "allowed are boundary parts BODY:PART");
     if (masters.empty())
       throw InputError(section, "Master", "(none)", "allowed are boundary parts BODY:PART");
-    gap_model     = prm.get("Gap model") == "point to point" ? GapModel::point_to_point :
-                                                               GapModel::point_to_segment;
-    symmetric     = prm.get("Pass") == "symmetric";
-    rim_tolerance = prm.get_double("Rim tolerance");
+    gap_model            = prm.get("Gap model") == "point to point" ? GapModel::point_to_point :
+                                                                      GapModel::point_to_segment;
+    symmetric            = prm.get("Pass") == "symmetric";
+    rim_tolerance        = prm.get_double("Rim tolerance");
+    tied                 = prm.get("Type") == "tied";
+    bond_distance        = prm.get_double("Bond distance");
+    bond.normal_strength = strength(prm, section, "Normal strength");
+    bond.shear_strength  = strength(prm, section, "Shear strength");
+    bond.fracture_energy = prm.get_double("Fracture energy");
   }
 } // namespace akmon

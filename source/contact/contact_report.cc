@@ -1,3 +1,4 @@
+#include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
 #include <akmon/output/history.h>
 #include <akmon/parameters.h>
@@ -36,6 +37,9 @@ namespace akmon
         const bool own = pair.slave == numbers::invalid_unsigned_int;
         report.forces[pair.interface] += pair.reversed != own ? -force : force;
       }
+    if (Utilities::MPI::this_mpi_process(discretization.communicator()) == 0) // all know the bonds
+      for (unsigned int i = 0; i < contacts.size(); ++i)
+        report.forces[i] += bonds->force_of(i);
     return report;
   }
 

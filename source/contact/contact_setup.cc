@@ -1,3 +1,4 @@
+#include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
 #include <akmon/parameters.h>
 
@@ -22,11 +23,11 @@ namespace akmon
       for (unsigned int i = 0; i < contacts.size(); ++i)
         {
           const auto &contact  = contacts[i];
-          const bool coupled   = solver.type == ContactSolver::Type::coupled;
-          const bool symmetric = coupled && contact.symmetric;
-          searches.emplace_back(discretization, contact, i, searches.size(), false, coupled);
+          const bool levers    = solver.type != ContactSolver::Type::decoupled;
+          const bool symmetric = levers && contact.symmetric;
+          searches.emplace_back(discretization, contact, i, searches.size(), false, levers);
           if (symmetric && contact.slaves != contact.masters)
-            searches.emplace_back(discretization, contact, i, searches.size(), true, coupled);
+            searches.emplace_back(discretization, contact, i, searches.size(), true, levers);
         }
       return searches;
     }
@@ -113,18 +114,31 @@ namespace akmon
     , surface_nodes(owned_nodes(discretization, searches, obstacle_searches))
     , nodes(discretization, surface_nodes, rigid_nodes.n)
     , mobility(discretization, conditions)
-    , coupled(solver, nodes, mobility)
+    , bonds(std::make_unique<Bonds>(discretization, contacts, conditions))
+    , coupled(solver, nodes, mobility, bonds.get())
   {
+    bonds->set_numbers(nodes);
+    if (solver.type == ContactSolver::Type::penalty && !rigid_touches.empty())
+      throw InputError(
+        "Contact solver",
+        "Type",
+        "penalty",
+        "rigid bodies that meet have no bulk modulus for penalty springs; allowed are "
+        "coupled and decoupled");
     for (unsigned int i = 0; i < contacts.size() + bodies.size(); ++i)
       {
         const bool is_contact = i < contacts.size();
         const ContactLaw &law = is_contact ? static_cast<const ContactLaw &>(contacts[i]) :
                                              bodies[i - contacts.size()].parameters();
-        if (solver.type == ContactSolver::Type::coupled && law.stick == ContactLaw::Stick::central)
+        if (solver.type != ContactSolver::Type::decoupled &&
+            law.stick == ContactLaw::Stick::central)
           throw InputError((is_contact ? "Contact/" : "Obstacles/") + law.name,
                            "Stick",
                            "central",
                            "allowed with [Contact solver] Type = decoupled only");
       }
   }
+
+
+  Contact::~Contact() = default;
 } // namespace akmon

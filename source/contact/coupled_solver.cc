@@ -58,11 +58,12 @@ namespace akmon
 
   CoupledSolver::CoupledSolver(const ContactSolver &parameters,
                                const ContactNodes &nodes,
-                               const Mobility &mobility)
+                               const Mobility &mobility,
+                               const Bonds *const bonds)
     : parameters(parameters)
     , nodes(nodes)
-    , delassus_of_all(nodes, mobility)
-    , delassus(nodes, mobility)
+    , delassus_of_all(nodes, mobility, bonds)
+    , delassus(nodes, mobility, bonds)
     , preconditioner(mobility, compliance)
   {
   }

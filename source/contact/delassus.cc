@@ -1,3 +1,4 @@
+#include <akmon/contact/bonds.h>
 #include <akmon/contact/delassus.h>
 
 #include <deal.II/base/mpi.h>
@@ -32,9 +33,10 @@ namespace akmon
   } // namespace
 
 
-  Delassus::Delassus(const ContactNodes &nodes, const Mobility &mobility)
+  Delassus::Delassus(const ContactNodes &nodes, const Mobility &mobility, const Bonds *const bonds)
     : nodes(nodes)
     , mobility(mobility)
+    , bonds(bonds)
   {
   }
 
@@ -55,6 +57,8 @@ namespace akmon
     used.clear();
     for (const ContactPair *const pair : pairs)
       used.insert(used.end(), pair->nodes.begin(), pair->nodes.begin() + pair->n_nodes);
+    if (is_bonded())
+      bonds->add_nodes(used);
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     nodes.make(field);
@@ -103,6 +107,11 @@ namespace akmon
     for (const ContactPair *const pair : pairs)
       for (unsigned int k = 0; k < pair->n_nodes; ++k)
         field.add(pair->nodes[k], Tensor<1, 3>({1., 0., 0.}));
+    std::vector<unsigned int> bonded;
+    if (is_bonded())
+      bonds->add_nodes(bonded);
+    for (const unsigned int number : bonded)
+      field.add(number, Tensor<1, 3>({1., 0., 0.}));
     nodes.add_to_owners(field);
     nodes.update_ghosts(field);
     std::vector<bool> result;
@@ -122,6 +131,13 @@ namespace akmon
         result.push_back(isolated);
       }
     return result;
+  }
+
+
+  bool
+  Delassus::is_bonded() const
+  {
+    return bonds && bonds->exist();
   }
 
 
@@ -146,6 +162,8 @@ namespace akmon
       {
         for (const unsigned int number : used)
           to_increment(number);
+        if (is_bonded())
+          bonds->project(field);
         return;
       }
     nodes.add_to_owners(field);
@@ -153,6 +171,8 @@ namespace akmon
       to_increment(number);
     for (unsigned int number = nodes.first_common(); number < nodes.size(); ++number)
       to_increment(number);
+    if (is_bonded())
+      bonds->project(field);
     nodes.update_ghosts(field);
   }
 

@@ -1,4 +1,5 @@
 #include <akmon/contact/obstacle_search.h>
+#include <akmon/contact/penalty.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -115,9 +116,10 @@ namespace akmon
     std::set<types::boundary_id> ids;
     for (const auto &surface : obstacle.slaves)
       ids.merge(discretization.boundary_ids("Obstacles/" + obstacle.name, "Surfaces", surface));
-    faces = discretization.faces_on(ids);
+    faces                = discretization.faces_on(ids);
+    const auto stiffness = penalty_stiffness_of_nodes(discretization, faces);
     for (const auto &[node, size] : node_sizes(discretization, faces))
-      slaves.push_back({node, size});
+      slaves.push_back({node, size, stiffness.at(node)});
   }
 
 
@@ -145,6 +147,7 @@ namespace akmon
         pair.nodes[0]    = nodes.number(pair.slave_id);
         pair.weights[0]  = 1.;
         pair.size        = slave.size;
+        pair.stiffness   = slave.stiffness;
         pair.place       = x[pair.nodes[0]];
         const auto place = transpose(R) * (pair.place - pose.place);
         parts.clear();

@@ -283,6 +283,7 @@ namespace akmon
     pair.normal     = partner.normal;
     pair.gap        = partner.gap;
     pair.size       = slaves[slave].size;
+    pair.stiffness  = std::min(slaves[slave].stiffness, masters[partner.face].stiffness);
     pair.nodes[0]   = slaves[slave].number;
     pair.weights[0] = 1.;
 

@@ -1,3 +1,4 @@
+#include <akmon/contact/penalty.h>
 #include <akmon/contact/surface_search.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -119,6 +120,9 @@ namespace akmon
                                .norm());
       }
     new_slave(numbers::invalid_unsigned_int);
+    const auto stiffness = penalty_stiffness_of_nodes(discretization, slave_faces);
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      slaves[s].stiffness = stiffness.at(slaves[s].node);
     outwards.resize(slaves.size());
   }
 
@@ -167,7 +171,11 @@ namespace akmon
       if (face.owned)
         {
           std::vector<Point<3>> points;
-          FaceMessage message{face.id, face.body, face.depth, {}};
+          FaceMessage message{face.id,
+                              face.body,
+                              face.depth,
+                              penalty_stiffness(discretization, face),
+                              {}};
           for (unsigned int k = 0; k < 4; ++k)
             {
               points.emplace_back(at_node(x, face.nodes[k]));
@@ -209,7 +217,7 @@ namespace akmon
     std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
     for (const auto &message : fetched)
       {
-        MasterFace face{message.body, message.depth, {}};
+        MasterFace face{message.body, message.depth, message.stiffness, {}};
         std::vector<Point<3>> points;
         for (unsigned int k = 0; k < 4; ++k)
           {

@@ -41,6 +41,8 @@ namespace akmon
                          "friction_dissipation",
                          "impact_dissipation",
                          "hourglass_energy",
+                         "contact_energy",
+                         "bond_energy",
                          "external_work",
                          "energy_error",
                          "momentum_x",
@@ -148,8 +150,14 @@ namespace akmon
     add(damping, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
       return rigid.damping - watched.integrator.damping_work(increment);
     });
+    // What penalty springs take they store.
+    const bool springs = parameters.contact_solver.type == ContactSolver::Type::penalty;
     add(impact, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
-      return -watched.contact.work(increment).normal - rigid.normal;
+      const auto work = watched.contact.work(increment);
+      return -work.holding - (springs ? 0. : work.normal + rigid.normal);
+    });
+    add(bond, [&](const NodalVector &increment, const RigidBody::Work &) {
+      return -watched.contact.work(increment).failing;
     });
     add(friction, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
       return -watched.contact.work(increment).tangential - rigid.tangential;
@@ -157,8 +165,8 @@ namespace akmon
   }
 
 
-  // What rounding of coordinates X to eps |X| looks like: nodes that move by a thousand times that in
-  // each step, M (1000 eps max|X| / dt)^2. Energies below it say nothing about their balance.
+  // What rounding of coordinates X to eps |X| looks like: nodes that move by a thousand times that
+  // in each step, M (1000 eps max|X| / dt)^2. Energies below it say nothing about their balance.
   double
   Monitor::energy_of_rounding() const
   {
@@ -178,15 +186,18 @@ namespace akmon
   void
   Monitor::sum_energies()
   {
-    const std::array<double, 8> local = {{watched.integrator.kinetic_energy(),
-                                          watched.internal_forces.internal_work(),
-                                          watched.internal_forces.plastic_work(),
-                                          damping.value(),
-                                          friction.value(),
-                                          impact.value(),
-                                          watched.internal_forces.hourglass_work(),
-                                          external.value()}};
-    std::array<double, 8> all;
+    const auto stored                  = watched.contact.stored_energy();
+    const std::array<double, 10> local = {{watched.integrator.kinetic_energy(),
+                                           watched.internal_forces.internal_work(),
+                                           watched.internal_forces.plastic_work(),
+                                           damping.value(),
+                                           friction.value() - stored.tangential,
+                                           impact.value(),
+                                           watched.internal_forces.hourglass_work(),
+                                           external.value(),
+                                           stored.normal + stored.tangential,
+                                           bond.value()}};
+    std::array<double, 10> all;
     Utilities::MPI::sum(ArrayView<const double>(local.data(), local.size()),
                         watched.discretization.communicator(),
                         ArrayView<double>(all.data(), all.size()));
@@ -200,6 +211,8 @@ namespace akmon
     balance.impact_dissipation   = all[5];
     balance.hourglass            = all[6];
     balance.external_work        = all[7];
+    balance.contact              = all[8];
+    balance.bond                 = all[9];
     if (watched.state.step == 0)
       {
         initial_energy = balance.sum();
@@ -250,18 +263,20 @@ namespace akmon
   Monitor::write_row()
   {
     const MPI_Comm communicator = watched.discretization.communicator();
-    std::vector<double> row = {watched.state.time,
-                               watched.state.dt_next,
-                               balance.kinetic,
-                               balance.strain,
-                               balance.plastic_dissipation,
-                               balance.damping_dissipation,
-                               balance.friction_dissipation,
-                               balance.impact_dissipation,
-                               balance.hourglass,
-                               balance.external_work,
-                               energy_error()};
-    const auto append       = [&](const std::vector<double> &values) {
+    std::vector<double> row     = {watched.state.time,
+                                   watched.state.dt_next,
+                                   balance.kinetic,
+                                   balance.strain,
+                                   balance.plastic_dissipation,
+                                   balance.damping_dissipation,
+                                   balance.friction_dissipation,
+                                   balance.impact_dissipation,
+                                   balance.hourglass,
+                                   balance.contact,
+                                   balance.bond,
+                                   balance.external_work,
+                                   energy_error()};
+    const auto append           = [&](const std::vector<double> &values) {
       row.insert(row.end(), values.begin(), values.end());
     };
     append(momenta());

@@ -13,7 +13,7 @@ namespace akmon
   {
     const MPI_Comm communicator = watched.discretization.communicator();
     std::vector<double> works;
-    for (const WorkLine *const line : {&external, &damping, &friction, &impact})
+    for (const WorkLine *const line : {&external, &damping, &friction, &impact, &bond})
       for (const double part : line->parts())
         works.push_back(part);
     checkpoint.part_of_rank("work_lines", works);
@@ -34,7 +34,7 @@ namespace akmon
   {
     const auto works  = checkpoint.sum_of_rank("work_lines", watched.discretization.communicator());
     unsigned int next = 0;
-    for (WorkLine *const line : {&external, &damping, &friction, &impact})
+    for (WorkLine *const line : {&external, &damping, &friction, &impact, &bond})
       {
         line->continue_from({{works.at(next), works.at(next + 1)}});
         next += 2;

@@ -35,10 +35,18 @@ namespace akmon
   }
 
 
+  bool
+  Monitor::beyond_penetration_bound() const
+  {
+    return worst.penetration_relative > parameters.output.penetration_bound;
+  }
+
+
   void
   Monitor::check_contact() const
   {
-    if (worst.penetration_relative > parameters.output.penetration_bound)
+    if (beyond_penetration_bound() &&
+        parameters.contact_solver.type != ContactSolver::Type::penalty)
       throw RunError(ExitStatus::lost_contact,
                      level() + "contact is lost: a penetration of " +
                        shortest_text(worst.penetration_relative) +

@@ -45,7 +45,7 @@ namespace akmon
       "0.25",
       Double(0.),
       "The run stops when a penetration over the cell size is beyond this at a history "
-      "row: contact was lost (dimensionless)");
+      "row: contact was lost; with penalty contact a warning (dimensionless)");
   }
 
 

@@ -72,16 +72,19 @@ namespace akmon
 
 
   double
-  StepControl::choose(const double t, const double largest_frequency_squared) const
+  StepControl::choose(const double t,
+                      const double largest_frequency_squared,
+                      const bool cuts_fixed) const
   {
-    const double rest = end - t;
-    if (!automatic())
+    const double rest     = end - t;
+    const double critical = 2. / std::sqrt(largest_frequency_squared);
+    if (!automatic() && !(cuts_fixed && fixed_step > critical))
       return rest > rounding * fixed_step && rest < fixed_step * (1. + rounding) ? rest :
                                                                                    fixed_step;
     // Central differences keep an energy that depends on the step: a last step of a tenth of the
     // others would show what no step showed before it.
     constexpr double sharing = 100.;
-    const double step        = safety_factor * 2. / std::sqrt(largest_frequency_squared);
+    const double step        = safety_factor * critical;
     if (rest <= rounding * step || rest >= sharing * step)
       return step;
     return rest / std::ceil(rest / step * (1. - rounding));

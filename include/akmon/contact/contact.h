@@ -7,15 +7,19 @@
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/obstacle_search.h>
 #include <akmon/contact/pair.h>
+#include <akmon/contact/penalty.h>
 #include <akmon/contact/surface_search.h>
 #include <akmon/model/essential_conditions.h>
 #include <akmon/model/nodal_state.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 namespace akmon
 {
+  class Bonds;
+
   /// What contact did at a time level, summed or maximized over this rank's pairs.
   struct ContactReport
   {
@@ -47,6 +51,10 @@ namespace akmon
             const std::vector<SurfaceContact> &contacts,
             std::vector<RigidBody> &bodies,
             const EssentialConditions &conditions);
+    ~Contact();
+    Contact(const Contact &) = delete;
+    Contact &
+    operator=(const Contact &) = delete;
 
     /// Step 2: pairs, normals and gaps at the positions state.x.
     void
@@ -77,13 +85,30 @@ namespace akmon
     void
     add_increments(NodalState &state, const double effective_mass_factor);
 
-    /// Work of the normal and of the tangential contact forces through an increment; energy.
+    /// Work of the normal and of the tangential contact forces, of bonds that hold and of bonds
+    /// that fail, through an increment; energy.
     struct Work
     {
-      double normal = 0., tangential = 0.;
+      double normal = 0., tangential = 0., holding = 0., failing = 0.;
     };
     Work
     work(const NodalVector &increment) const;
+
+    /// Elastic energy of this rank's penalty springs, none with other solvers; energy.
+    Work
+    stored_energy() const;
+
+    /// What the springs that act, or may in this step, add to the largest frequency squared of the
+    /// bodies, lambda_max(M^{-1}(K + K_c)) <= lambda_max(M^{-1} K) + lambda_max(M^{-1} K_c)
+    /// (collective).
+    PenaltyLimit
+    penalty_limit();
+
+    const Bonds &
+    get_bonds() const
+    {
+      return *bonds;
+    }
 
     ContactReport
     report(const NodalState &state) const;
@@ -166,6 +191,16 @@ namespace akmon
     decoupled_friction(ContactPair &pair,
                        const NodalState &state,
                        const double effective_mass_factor);
+    void
+    set_rigid_mobilities();
+    double
+    spring(const ContactPair &pair) const;
+    void
+    penalty_normal();
+    void
+    penalty_friction(const NodalState &state);
+    void
+    add_bond_forces(NodalState &state, const double effective_mass_factor);
     double
     friction_coefficient(const ContactPair &pair, const NodalState &state) const;
     const ContactLaw &
@@ -182,6 +217,7 @@ namespace akmon
     std::vector<unsigned int> surface_nodes;
     ContactNodes nodes;
     Mobility mobility;
+    const std::unique_ptr<Bonds> bonds;
     CoupledSolver coupled;
     double moved     = 0.; ///< bound of relative motion since candidates were built
     double travelled = 0.; ///< the same since the beginning

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/contact/bond_law.h>
 #include <akmon/contact/coulomb.h>
 
 #include <deal.II/base/parameter_handler.h>
@@ -14,14 +15,16 @@ namespace akmon
   {
     enum class Type
     {
-      coupled,  ///< all pairs at once through the full Delassus operator (Problem 2)
-      decoupled ///< every pair alone (Problem 3)
+      coupled,   ///< all pairs at once through the full Delassus operator (Problem 2)
+      decoupled, ///< every pair alone (Problem 3)
+      penalty    ///< springs that push back what has penetrated
     };
 
     Type type            = Type::coupled;
     double tolerance     = 1e-10; ///< of gaps, relative to the cell size
     unsigned int limit   = 1000;  ///< applications of the operator in one solve
     double release_speed = 1e-4;  ///< over the dilatational wave speed
+    double penalty_scale = 0.1;   ///< f_s, of K A^2/V
 
     static void
     declare(dealii::ParameterHandler &prm);
@@ -65,8 +68,11 @@ namespace akmon
 
     std::vector<std::string> masters; ///< "BODY:PART"
     GapModel gap_model   = GapModel::point_to_segment;
-    bool symmetric       = true; ///< both sides are slave and master
-    double rim_tolerance = 0.;   ///< of a face's size
+    bool symmetric       = true;  ///< both sides are slave and master
+    double rim_tolerance = 0.;    ///< of a face's size
+    bool tied            = false; ///< bonded at the start
+    double bond_distance = 0.;    ///< how far apart tied surfaces may be, over the face size
+    BondLaw bond;
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -19,7 +19,8 @@ namespace akmon
   public:
     CoupledSolver(const ContactSolver &parameters,
                   const ContactNodes &nodes,
-                  const Mobility &mobility);
+                  const Mobility &mobility,
+                  const Bonds *bonds = nullptr);
 
     /**
      * Take up the pairs of a step; those that cannot close in it get no force (collective).

@@ -8,6 +8,8 @@
 
 namespace akmon
 {
+  class Bonds;
+
   /**
    * The Delassus operator A = G m*^{-1} G^T (65)(76) of a set of pairs, applied without being
    * assembled: forces to nodes, increments of nodes, relative increments of pairs. Scaled so that
@@ -19,7 +21,8 @@ namespace akmon
   public:
     using Vector = std::vector<dealii::Tensor<1, 3>>;
 
-    Delassus(const ContactNodes &nodes, const Mobility &mobility);
+    /// @param bonds  whose constraints are taken out of the nodes' motion, if there are any
+    Delassus(const ContactNodes &nodes, const Mobility &mobility, const Bonds *bonds = nullptr);
 
     /**
      * @param pairs        the pairs to couple; referred to until the next call
@@ -66,9 +69,12 @@ namespace akmon
     clear();
     void
     forces_to_increments();
+    bool
+    is_bonded() const;
 
     const ContactNodes &nodes;
     const Mobility &mobility;
+    const Bonds *const bonds;
     std::vector<ContactPair *> pairs;
     double mass_factor = 1.;
     std::vector<double> scales;

@@ -65,6 +65,7 @@ namespace akmon
     {
       unsigned int node;    ///< local number
       double size;          ///< least edge of its faces, initially; length
+      double stiffness;     ///< mean of its faces' K A^2/V; force/length
       double clear_of = 0.; ///< nothing is closer than this minus what was travelled; length
     };
 

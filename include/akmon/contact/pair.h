@@ -45,6 +45,7 @@ namespace akmon
     dealii::Tensor<1, 3> normal; ///< of the partner, outward
     double gap;                  ///< n . g_0, negative when penetrating; length
     double size;                 ///< of the cell faces at the slave; length
+    double stiffness = 0.;       ///< what penalty springs are a part of; force/length
     dealii::Tensor<1, 3> place;  ///< of the slave; length
 
     bool levered = false;

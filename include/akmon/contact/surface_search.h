@@ -94,6 +94,7 @@ namespace akmon
       unsigned int number; ///< contact number
       ContactNodes::Id id;
       double size;                  ///< least edge of its faces, initially; length
+      double stiffness;             ///< mean of its faces' K A^2/V; force/length
       unsigned int first_face;      ///< in slave_face_list
       unsigned int first_candidate; ///< in candidates
     };
@@ -102,21 +103,22 @@ namespace akmon
     {
       dealii::types::global_cell_index id;
       unsigned int body;
-      double depth; ///< thickness of the cell behind the face; length
+      double depth;     ///< thickness of the cell behind the face; length
+      double stiffness; ///< K A^2/V of that cell; force/length
       std::array<ContactNodes::Id, 4> nodes;
 
       template <class Archive>
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &id &body &depth &nodes;
+        archive &id &body &depth &stiffness &nodes;
       }
     };
 
     struct MasterFace
     {
       unsigned int body;
-      double depth;
+      double depth, stiffness;
       std::array<unsigned int, 4> nodes; ///< contact numbers
     };
 

@@ -72,6 +72,8 @@ namespace akmon
     double
       impact_dissipation = 0.; ///< kinetic energy of striking nodes that exact enforcement takes
     double hourglass     = 0.; ///< work against hourglass control
+    double contact       = 0.; ///< elastic energy of penalty springs
+    double bond          = 0.; ///< taken by bonds that fail
     double external_work = 0.; ///< of loads and prescribed motions
 
     /// What must stay the same.
@@ -79,7 +81,7 @@ namespace akmon
     sum() const
     {
       return kinetic + strain + plastic_dissipation + damping_dissipation + friction_dissipation +
-             impact_dissipation + hourglass - external_work;
+             impact_dissipation + hourglass + contact + bond - external_work;
     }
   };
 } // namespace akmon

@@ -85,6 +85,18 @@ namespace akmon
       return worst;
     }
 
+    /// Whether a penetration was deeper than the bound: contact is lost, or penalty springs are
+    /// soft.
+    bool
+    beyond_penetration_bound() const;
+
+    /// Where that is (collective).
+    std::string
+    deepest_place() const
+    {
+      return describe(deepest);
+    }
+
     /// Pairs that carried a force at the last level (this rank's).
     unsigned int
     active_pairs() const
@@ -139,7 +151,7 @@ namespace akmon
     Fields fields;
     Probes probes;
 
-    WorkLine external, damping, friction, impact;
+    WorkLine external, damping, friction, impact, bond;
     EnergyBalance balance;
     double initial_energy = 0., largest_energy = 0.;
     ContactReport report;

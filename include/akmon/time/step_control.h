@@ -33,9 +33,12 @@ namespace akmon
      * The step from time @p t on. The last step ends at `end` exactly; an automatic run shares the
      * rest among its last hundred steps, so that none is much smaller than those before.
      * @param largest_frequency_squared  omega_max^2 over all ranks, 1/time^2
+     * @param cuts_fixed  a fixed step above the critical one gives way to the automatic one
      */
     double
-    choose(const double t, const double largest_frequency_squared) const;
+    choose(const double t,
+           const double largest_frequency_squared,
+           const bool cuts_fixed = false) const;
 
     /// Whether the run has reached its end at time t.
     bool

@@ -75,25 +75,31 @@ namespace
   INSTANTIATE_TEST_SUITE_P(
     Shipped,
     Restart,
-    testing::Values(RestartedCase{"two_bars", bars, 1},
-                    RestartedCase{"two_bars", bars, 2},
-                    // Steps that follow the deformation, plastic flow, a rigid wall.
-                    RestartedCase{"taylor_bar_quarter",
-                                  {"Time/End=4e-6",
-                                   "Bodies/bar/Cylinder/Cells axial=12",
-                                   "Checkpoint/Interval=1e-6"},
-                                  1},
-                    // Coupled friction that sticks and slips, warm-started.
-                    RestartedCase{"sliding_block", {"Time/End=0.02", "Checkpoint/Steps=60"}, 2},
-                    // Two unlike meshes, both sides slave and master.
-                    RestartedCase{"two_bars",
-                                  {"Time/End=8e-5",
-                                   "Checkpoint/Steps=30",
-                                   "Contact solver/Type=coupled",
-                                   "Contact/interface/Pass=symmetric",
-                                   "Bodies/left/Box/Cells=20, 3, 3",
-                                   "Contact/interface/Friction coefficient=0.3"},
-                                  1}),
+    testing::Values(
+      RestartedCase{"two_bars", bars, 1},
+      RestartedCase{"two_bars", bars, 2},
+      // Steps that follow the deformation, plastic flow, a rigid wall.
+      RestartedCase{"taylor_bar_quarter",
+                    {"Time/End=4e-6",
+                     "Bodies/bar/Cylinder/Cells axial=12",
+                     "Checkpoint/Interval=1e-6"},
+                    1},
+      // Coupled friction that sticks and slips, warm-started.
+      RestartedCase{"sliding_block", {"Time/End=0.02", "Checkpoint/Steps=60"}, 2},
+      // Penalty springs with friction; bonds while they fail.
+      RestartedCase{"sliding_block",
+                    {"Time/End=0.02", "Checkpoint/Steps=60", "Contact solver/Type=penalty"},
+                    1},
+      RestartedCase{"lap_joint", {"Time/End=5.5e-5", "Checkpoint/Interval=2e-5"}, 2},
+      // Two unlike meshes, both sides slave and master.
+      RestartedCase{"two_bars",
+                    {"Time/End=8e-5",
+                     "Checkpoint/Steps=30",
+                     "Contact solver/Type=coupled",
+                     "Contact/interface/Pass=symmetric",
+                     "Bodies/left/Box/Cells=20, 3, 3",
+                     "Contact/interface/Friction coefficient=0.3"},
+                    1}),
     [](const auto &info) {
       return std::to_string(info.index) + "_" + info.param.name + "_on_" +
              std::to_string(info.param.n_ranks);

@@ -1,0 +1,183 @@
+#include <akmon/contact/bonds.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "support/kept_run.h"
+#include "support/report.h"
+
+// Tied contact on meshes that do not match.
+
+using namespace akmon::test;
+
+namespace
+{
+  constexpr double E = 3.0e7, rho = 7.337e-4, h = 0.5, length = 20., area = 64.;
+  const double c = std::sqrt(E / rho), dt = h / c;
+
+
+  std::string
+  text(const double value)
+  {
+    std::ostringstream out;
+    out.precision(17);
+    out << value;
+    return out.str();
+  }
+
+
+  // Two bars of length 10 that lie against each other, 3 x 3 and 4 x 4 cells across.
+  std::vector<std::string>
+  tied_bars(const unsigned int n_steps, const std::string &solver = "coupled")
+  {
+    return {"Bodies/left/Position=-5, 0, 0",
+            "Bodies/right/Position=5, 0, 0",
+            "Bodies/left/Velocity=0, 0, 0",
+            "Bodies/right/Velocity=0, 0, 0",
+            "Bodies/left/Box/Size=10, 8, 8",
+            "Bodies/right/Box/Size=10, 8, 8",
+            "Bodies/left/Box/Cells=20, 3, 3",
+            "Bodies/right/Box/Cells=20, 4, 4",
+            "Contact/interface/Type=tied",
+            "Contact solver/Type=" + solver,
+            "Time/Step=" + text(dt),
+            "Time/Allow unstable step=true",
+            "Time/End=" + text(n_steps * dt)};
+  }
+
+
+  // A pressure p that acts from the beginning: u = p/(rho c) (t - x/c)+ and its reflection at the
+  // free end, at nodes exactly what central differences give at a Courant number of one.
+  TEST(TiedBars, pass_a_wave_as_one_bar)
+  {
+    constexpr double p = 1e3;
+    auto overrides     = tied_bars(70);
+    for (const char *const entry :
+         {"Loads/Names=push",
+          "Loads/push/Type=pressure",
+          "Loads/push/Surfaces=left:x-",
+          "Loads/push/Function=1e3",
+          "Probes/Names=left_face, left_middle, left_end, right_face, right_middle, right_end",
+          "Probes/left_face/Point=0, 4, 4",
+          "Probes/right_face/Body=right",
+          "Probes/right_face/Point=0, 0, 0",
+          "Probes/right_middle/Body=right",
+          "Probes/right_middle/Point=5, 4, 0",
+          "Probes/right_end/Body=right",
+          "Probes/right_end/Point=10, -4, 2"})
+      overrides.push_back(entry);
+    const Table history = run_case(shipped("two_bars"), overrides);
+    const double v      = p / (rho * c);
+    double worst = 0., aside = 0., momentum = 0.;
+    for (std::size_t i = 0; i < history.n_rows(); ++i)
+      {
+        const double t = history["time"][i];
+        for (const auto &[name, x] : {std::pair<std::string, double>{"left_face", 10.},
+                                      {"right_face", 10.},
+                                      {"right_middle", 15.},
+                                      {"right_end", 20.}})
+          {
+            const double u = v *
+                             (std::max(0., t - x / c) + std::max(0., t - (2. * length - x) / c));
+            worst = std::max(worst,
+                             std::abs(history[name + ".displacement_x"][i] - u) / (v * 70. * dt));
+            for (const char *const axis : {"y", "z"})
+              aside = std::max(aside,
+                               std::abs(history[name + ".displacement_" + axis][i]) /
+                                 (v * 70. * dt));
+          }
+        momentum = std::max(momentum,
+                            std::abs(history["momentum_x"][i] - p * area * t) /
+                              (p * area * 70. * dt));
+      }
+    report("displacement, error", worst);
+    report("displacement aside", aside);
+    report("momentum, error", momentum);
+    report("bond energy", history["bond_energy"].back());
+    EXPECT_LE(worst, 1e-9);
+    EXPECT_LE(aside, 1e-9);
+    EXPECT_LE(momentum, 1e-12);
+    EXPECT_EQ(history["bond_energy"].back(), 0.);
+    EXPECT_EQ(history["active_pairs"].back(), 0.);
+  }
+
+
+  // Thrown askew: momenta.
+  class TiedBarsThrown : public testing::TestWithParam<const char *>
+  {
+  };
+
+
+  TEST_P(TiedBarsThrown, keep_momenta)
+  {
+    auto overrides = tied_bars(120, GetParam());
+    overrides.push_back("Time/Step=automatic");
+    overrides.push_back("Bodies/left/Velocity=100, 20, -50");
+    overrides.push_back("Bodies/right/Spin=300, 100, 0");
+    const auto run       = run_and_keep(shipped("two_bars"), overrides);
+    const double scale   = rho * 640. * 100.;
+    const double linear  = change_of_momentum(run.history) / scale,
+                 angular = change_of_momentum(run.history, "angular_momentum_") / (scale * length);
+    report("change of momentum", linear);
+    report("change of angular momentum", angular);
+    EXPECT_LE(linear, 1e-12);
+    EXPECT_LE(angular, 1e-12);
+    for (const double error : run.history["energy_error"])
+      EXPECT_LE(std::abs(error), 1e-3);
+  }
+
+
+  INSTANTIATE_TEST_SUITE_P(Solvers,
+                           TiedBarsThrown,
+                           testing::Values("coupled", "decoupled", "penalty"));
+
+
+  // The glue takes its fracture energy times its area, whatever the meshes and the waves do.
+  TEST(LapJoint, takes_area_times_fracture_energy)
+  {
+    const auto run      = run_and_keep(shipped("lap_joint"));
+    const auto &history = run.history;
+    const double energy = history["bond_energy"].back();
+    report("bond energy over G A", energy / 0.1);
+    report("largest force", largest_of(history["glue.force_x"]));
+    report("energy error", largest_of(history["energy_error"]));
+    report("penetration over h", largest_of(history["max_penetration_rel"]));
+    EXPECT_NEAR(energy, 0.1, 0.02 * 0.1);
+    const auto bond = run.simulation->watch_contact().get_bonds().report(0);
+    report("broken part", bond.broken_area / bond.area);
+    EXPECT_NEAR(bond.area, 1e-4, 1e-12);
+    EXPECT_NEAR(bond.energy, energy, 1e-9 * energy);
+    EXPECT_EQ(bond.broken_area, bond.area);
+    EXPECT_EQ(history["glue.force_x"].back(), 0.);
+    EXPECT_LE(std::abs(largest_of(history["energy_error"])), 5e-3);
+  }
+
+
+  TEST(LapJoint, on_three_ranks_is_that_on_one)
+  {
+    const std::vector<std::string> overrides = {"Time/End=6e-5", "Output/History steps=20"};
+    const Table one                          = run_case(shipped("lap_joint"), overrides),
+                three = run_case_on_ranks(shipped("lap_joint"), 3, overrides);
+    ASSERT_EQ(one.n_rows(), three.n_rows());
+    EXPECT_GT(one["bond_energy"].back(), 1e-3);
+    for (const char *const column : {"time", "bond_energy", "glue.force_x", "glue.force_z"})
+      for (std::size_t i = 0; i < one.n_rows(); ++i)
+        EXPECT_NEAR(one[column][i], three[column][i], 1e-9 * largest_of(one[column])) << column;
+  }
+
+
+  // Without fracture energy the bond is gone at once, and takes nothing.
+  TEST(TiedBars, part_at_once_without_fracture_energy)
+  {
+    auto overrides = tied_bars(70);
+    overrides.push_back("Bodies/left/Velocity=-10, 0, 0");
+    overrides.push_back("Bodies/right/Velocity=10, 0, 0");
+    overrides.push_back("Contact/interface/Normal strength=" + text(0.5 * rho * c * 10.));
+    const Table history = run_case(shipped("two_bars"), overrides);
+    EXPECT_EQ(history["bond_energy"].back(), 0.);
+    EXPECT_EQ(history["interface.force_x"].back(), 0.);
+    EXPECT_NEAR(history["left_face.velocity_x"].back(), -10., 1e-6);
+  }
+} // namespace
