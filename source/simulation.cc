@@ -317,6 +317,12 @@ namespace akmon
         imbalance[total.name] = total.imbalance;
       }
     const auto &extremes = monitor->extremes();
+    const auto &solver   = monitor->contact_solver();
+    if (solver.unconverged > 0.)
+      screen.warning("contact: " + shortest_text(solver.unconverged) + " of " +
+                     shortest_text(state.step) +
+                     " steps ended above the solver's tolerance, the worst with gaps wrong by " +
+                     shortest_text(solver.residual) + " of the cell size");
     Summary summary;
     summary.set("title", parameters.title);
     summary.set("completed", status == ExitStatus::done);
@@ -334,6 +340,8 @@ namespace akmon
     summary.set("max_penetration", extremes.penetration);
     summary.set("max_penetration_rel", extremes.penetration_relative);
     summary.set("energy_error", extremes.energy_error);
+    summary.set("contact_iterations_mean", solver.iterations / std::max(solver.steps, 1.));
+    summary.set("contact_steps_unconverged", solver.unconverged);
     char hash[20];
     std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(state_hash()));
     summary.set("state_hash", std::string(hash));

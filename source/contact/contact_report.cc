@@ -17,6 +17,8 @@ namespace akmon
   {
     ContactReport report;
     report.iterations = coupled.iterations();
+    report.converged  = coupled.converged();
+    report.residual   = coupled.residual();
     report.forces.resize(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
       {

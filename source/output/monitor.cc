@@ -72,6 +72,10 @@ namespace akmon
     level_written = false;
     account_work();
     report = watched.contact.report(watched.state);
+    solver_record.iterations += report.iterations;
+    solver_record.steps += report.iterations > 0;
+    solver_record.unconverged += !report.converged;
+    solver_record.residual = std::max(solver_record.residual, report.residual);
     if (report.max_penetration_relative > deepest.size)
       deepest = {report.max_penetration_relative,
                  report.place,
@@ -157,8 +161,8 @@ namespace akmon
   }
 
 
-  // What rounding of coordinates X to eps |X| looks like: nodes that move by a thousand times that in
-  // each step, M (1000 eps max|X| / dt)^2. Energies below it say nothing about their balance.
+  // What rounding of coordinates X to eps |X| looks like: nodes that move by a thousand times that
+  // in each step, M (1000 eps max|X| / dt)^2. Energies below it say nothing about their balance.
   double
   Monitor::energy_of_rounding() const
   {
@@ -250,18 +254,18 @@ namespace akmon
   Monitor::write_row()
   {
     const MPI_Comm communicator = watched.discretization.communicator();
-    std::vector<double> row = {watched.state.time,
-                               watched.state.dt_next,
-                               balance.kinetic,
-                               balance.strain,
-                               balance.plastic_dissipation,
-                               balance.damping_dissipation,
-                               balance.friction_dissipation,
-                               balance.impact_dissipation,
-                               balance.hourglass,
-                               balance.external_work,
-                               energy_error()};
-    const auto append       = [&](const std::vector<double> &values) {
+    std::vector<double> row     = {watched.state.time,
+                                   watched.state.dt_next,
+                                   balance.kinetic,
+                                   balance.strain,
+                                   balance.plastic_dissipation,
+                                   balance.damping_dissipation,
+                                   balance.friction_dissipation,
+                                   balance.impact_dissipation,
+                                   balance.hourglass,
+                                   balance.external_work,
+                                   energy_error()};
+    const auto append           = [&](const std::vector<double> &values) {
       row.insert(row.end(), values.begin(), values.end());
     };
     append(momenta());

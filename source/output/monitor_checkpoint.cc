@@ -23,6 +23,11 @@ namespace akmon
                         Utilities::MPI::max(penetration_relative, communicator)});
     checkpoint.numbers("extremes",
                        {worst.penetration, worst.penetration_relative, worst.energy_error});
+    checkpoint.numbers("contact_solver",
+                       {solver_record.iterations,
+                        solver_record.steps,
+                        solver_record.unconverged,
+                        solver_record.residual});
     checkpoint.numbers("output_ticks", {field_tick.next, history_tick.next});
     checkpoint.integer("history_size", history.secure());
     fields.save(checkpoint);
@@ -49,10 +54,12 @@ namespace akmon
     worst.penetration          = of_run.at(0);
     worst.penetration_relative = of_run.at(1);
     worst.energy_error         = of_run.at(2);
-    const auto ticks           = checkpoint.numbers("output_ticks");
-    field_tick.next            = ticks.at(0);
-    history_tick.next          = ticks.at(1);
-    history_size               = checkpoint.integer("history_size");
+    const auto of_solver       = checkpoint.numbers("contact_solver");
+    solver_record     = {of_solver.at(0), of_solver.at(1), of_solver.at(2), of_solver.at(3)};
+    const auto ticks  = checkpoint.numbers("output_ticks");
+    field_tick.next   = ticks.at(0);
+    history_tick.next = ticks.at(1);
+    history_size      = checkpoint.integer("history_size");
     fields.restore(checkpoint);
     history.check_beginning(history_size);
   }

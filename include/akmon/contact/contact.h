@@ -25,7 +25,9 @@ namespace akmon
     unsigned int deepest      = dealii::numbers::invalid_unsigned_int; ///< its slave, local number
     unsigned int active_pairs = 0;
     unsigned int sticking_pairs = 0;
-    unsigned int iterations     = 0;          ///< of the coupled solver, the same on all ranks
+    unsigned int iterations     = 0;    ///< of the coupled solver, the same on all ranks
+    bool converged              = true; ///< whether it met its tolerance, the same on all ranks
+    double residual             = 0.;   ///< gap violation it left, over the size of the cell faces
     std::vector<dealii::Tensor<1, 3>> forces; ///< per interface, on the surfaces named as slaves
   };
 

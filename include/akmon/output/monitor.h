@@ -85,6 +85,21 @@ namespace akmon
       return worst;
     }
 
+    /// What the coupled contact solver took and reached in the run so far.
+    struct SolverRecord
+    {
+      double iterations  = 0.;
+      double steps       = 0.; ///< that it iterated in
+      double unconverged = 0.; ///< steps that ended above its tolerance
+      double residual    = 0.; ///< the largest, over the cell size
+    };
+
+    const SolverRecord &
+    contact_solver() const
+    {
+      return solver_record;
+    }
+
     /// Pairs that carried a force at the last level (this rank's).
     unsigned int
     active_pairs() const
@@ -146,6 +161,7 @@ namespace akmon
     double penetration = 0., penetration_relative = 0.; ///< since the last row
     Extremum deepest;                                   ///< penetration over the cell size so far
     Extremes worst;
+    SolverRecord solver_record;
     bool row_due               = false;
     bool level_written         = false; ///< whether the fields of this level are on disk
     std::uint64_t history_size = 0;     ///< at the checkpoint the run goes on from; bytes
