@@ -80,8 +80,8 @@ namespace akmon
   Contact::solve_coupled(const NodalState &state)
   {
     // Rigid shapes are exact: so are gaps from them.
-    const unsigned int most_rounds = bodies.empty() ? 4 : 8;
-    const double tolerance         = bodies.empty() ? 1e-7 : 1e-12; // of gaps, over the cell size
+    constexpr unsigned int most_rounds = 8;
+    const double tolerance = bodies.empty() ? 1e-7 : 1e-12; // of gaps, over the cell size
 
     coupled.solve(dx_free);
     for (unsigned int round = 1; round < most_rounds; ++round)
@@ -118,8 +118,7 @@ namespace akmon
   Contact::reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
   {
     if (pair.interface < contacts.size())
-      return pair.n_nodes > 1 && pair.slot == 0 &&
-             searches[pair.search].gap_at(x_reached, pair, gap);
+      return pair.n_nodes > 1 && searches[pair.search].gap_at(x_reached, pair, gap);
     if (pair.slave == numbers::invalid_unsigned_int)
       return std::any_of(rigid_touches.begin(), rigid_touches.end(), [&](const auto &touch) {
         return touch.gap_at(pair, poses, gap);

@@ -10,9 +10,6 @@ namespace akmon
 
   namespace
   {
-    constexpr double opposed = 0.02; // cosine: sides of an edge do not look at each other
-
-
     // What the lever of a pair needs (see ContactPair): the corners' places from their centre, and
     // [o x] I^{-1}.
     void
@@ -83,6 +80,19 @@ namespace akmon
           shape.radius = std::max(shape.radius, (corner - shape.middle).norm_square());
         shape.radius = std::sqrt(shape.radius);
       }
+  }
+
+
+  // Whether a face looks towards the slave's surface and is no part of it.
+  bool
+  SurfaceSearch::opposes(const MasterFace &face,
+                         const Tensor<1, 3> &normal,
+                         const unsigned int slave) const
+  {
+    const auto &outward = outwards[slave];
+    return normal * outward <= -opposed * normal.norm() * outward.norm() &&
+           std::find(face.nodes.begin(), face.nodes.end(), slaves[slave].number) ==
+             face.nodes.end();
   }
 
 
@@ -163,6 +173,16 @@ namespace akmon
   }
 
 
+  // Normal of the partner's face at the closest point.
+  Tensor<1, 3>
+  SurfaceSearch::face_normal(const ContactNodes::Field &x, const Partner &partner) const
+  {
+    return segment_normal(segment(x, masters[partner.face]),
+                          partner.projection.xi,
+                          partner.projection.eta);
+  }
+
+
   // Normal of the closest feature: of the face itself, or the mean of the faces that share the edge
   // or vertex. A feature is on the rim where an edge has one face only.
   Tensor<1, 3>
@@ -176,7 +196,7 @@ namespace akmon
     const unsigned int b   = face.nodes[(projection.where + 1) % 4];
     on_rim                 = false;
     if (projection.feature == Projection::Feature::face)
-      return segment_normal(segment(x, face), projection.xi, projection.eta);
+      return face_normal(x, partner);
 
     Tensor<1, 3> sum;
     for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
@@ -236,6 +256,11 @@ namespace akmon
     Partner partner;
     partner.face       = pair.face;
     partner.projection = project(point, segment(x, masters[pair.face]));
+    if (pair.shares_corner)
+      {
+        gap = face_normal(x, partner) * partner.projection.offset;
+        return true;
+      }
     if (partner.projection.feature != Projection::Feature::face)
       {
         // A step leads no further than to the neighbours.
@@ -243,14 +268,9 @@ namespace akmon
         for (const unsigned int node : masters[pair.face].nodes)
           for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
             {
-              const auto &face    = masters[faces_at[i]];
-              const auto corners  = segment(x, face);
-              const auto normal   = area_vector(corners);
-              const auto &outward = outwards[slave];
-              if (faces_at[i] == pair.face ||
-                  normal * outward > -opposed * normal.norm() * outward.norm() ||
-                  std::find(face.nodes.begin(), face.nodes.end(), slaves[slave].number) !=
-                    face.nodes.end())
+              const auto &face   = masters[faces_at[i]];
+              const auto corners = segment(x, face);
+              if (faces_at[i] == pair.face || !opposes(face, area_vector(corners), slave))
                 continue;
               const auto projection = project(point, corners);
               if (projection.offset.norm() < best)
@@ -304,43 +324,6 @@ namespace akmon
   }
 
 
-  // Further faces of a corner that the slave may run into: turned against the first partner, with
-  // the slave in front of them.
-  void
-  SurfaceSearch::add_corner_pairs(const ContactNodes::Field &x,
-                                  const double reach,
-                                  std::vector<ContactPair> &pairs) const
-  {
-    constexpr double turned = 0.5; // cosine
-
-    const std::size_t first  = pairs.size() - 1;
-    const unsigned int slave = pairs[first].row;
-    const auto point         = x[slaves[slave].number];
-    const auto &outward      = outwards[slave];
-    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
-      {
-        Partner partner;
-        partner.face         = candidates[i];
-        const auto &shape    = shapes[partner.face];
-        const double longest = shape.radius + reach;
-        const auto is_turned = [&](const ContactPair &other) {
-          return shape.normal * other.normal < turned * shape.area;
-        };
-        if ((point - shape.middle).norm_square() > longest * longest ||
-            shape.normal * outward > -opposed * shape.area * outward.norm() ||
-            !std::all_of(pairs.begin() + first, pairs.end(), is_turned))
-          continue;
-        partner.projection = project(point, segment(x, masters[partner.face]));
-        if (partner.projection.feature == Projection::Feature::face &&
-            partner.projection.offset.norm() <= reach && complete(x, slave, partner))
-          {
-            pairs.push_back(make_pair(x, slave, partner));
-            pairs.back().slot = pairs.size() - 1 - first;
-          }
-      }
-  }
-
-
   void
   SurfaceSearch::find_pairs(const NodalVector &positions,
                             const ContactNodes::Field &x,
@@ -372,7 +355,10 @@ namespace akmon
           continue;
         pairs.push_back(make_pair(x, s, partner));
         if (turns_with_segments && distance <= reach)
-          add_corner_pairs(x, reach, pairs);
+          {
+            add_valley_pairs(x, reach, partner, pairs);
+            add_corner_pairs(x, reach, pairs);
+          }
       }
   }
 } // namespace akmon

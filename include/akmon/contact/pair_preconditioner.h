@@ -1,7 +1,7 @@
 #pragma once
 
-#include <akmon/contact/delassus.h>
 #include <akmon/contact/coulomb_faces.h>
+#include <akmon/contact/delassus.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/pair.h>
 

@@ -179,16 +179,22 @@ namespace akmon
     double
     find_faces(Vector &t, const double enough)
     {
-      constexpr std::array<double, 4> penalties = {{1., 0.1, 2., 0.5}};
-      constexpr unsigned int patience           = 10; // steps without improvement
+      struct Attempt
+      {
+        double rho;       // of the predictor
+        double reduction; // of the residual of linear systems
+      };
+      constexpr std::array<Attempt, 5> attempts = {
+        {{1., 1e-5}, {1., 1e-9}, {0.1, 1e-9}, {2., 1e-9}, {0.5, 1e-9}}};
+      constexpr unsigned int patience = 8; // steps without improvement
 
       double best = std::numeric_limits<double>::max();
       t_best      = t;
-      for (const double rho : penalties)
+      for (const auto &attempt : attempts)
         {
           for (unsigned int since_best = 0; since_best < patience; ++since_best)
             {
-              choose_faces(t, rho);
+              choose_faces(t, attempt.rho);
               const double residual = measure(t);
               if (residual <= enough)
                 return residual;
@@ -200,13 +206,14 @@ namespace akmon
                 }
               if (n_applications >= problem->limit)
                 break;
-              newton_step(t);
+              newton_step(t, attempt.reduction);
             }
           t = t_best;
           compute_gradient(t);
           if (n_applications >= problem->limit)
             break;
-          relax(t);
+          if (&attempt != attempts.data()) // exact systems may be all that was missing
+            relax(t);
         }
       return best;
     }
@@ -252,10 +259,9 @@ namespace akmon
     // t + p with g + (A + c) p = 0 in the free components, where turning along a circle counts with
     // its curvature.
     void
-    newton_step(Vector &t)
+    newton_step(Vector &t, const double reduction)
     {
-      constexpr double reduction       = 1e-3;
-      constexpr unsigned int dimension = 50;
+      constexpr unsigned int dimension = 80;
 
       double square = 0., weighted = 0.;
       for (std::size_t i = 0; i < t.size(); ++i)

@@ -127,6 +127,8 @@ namespace akmon
       double area, radius;                 ///< radius: from the middle to the furthest corner
     };
 
+    static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
+
     struct Partner
     {
       unsigned int face; ///< in masters
@@ -153,9 +155,20 @@ namespace akmon
              const unsigned int slave_number,
              const dealii::Tensor<1, 3> &outward) const;
     bool
+    opposes(const MasterFace &face,
+            const dealii::Tensor<1, 3> &normal,
+            const unsigned int slave) const;
+    dealii::Tensor<1, 3>
+    face_normal(const ContactNodes::Field &x, const Partner &partner) const;
+    bool
     complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
     ContactPair
     make_pair(const ContactNodes::Field &x, const unsigned int slave, const Partner &partner) const;
+    void
+    add_valley_pairs(const ContactNodes::Field &x,
+                     const double reach,
+                     Partner partner,
+                     std::vector<ContactPair> &pairs) const;
     void
     add_corner_pairs(const ContactNodes::Field &x,
                      const double reach,
