@@ -310,7 +310,7 @@ namespace akmon
     const auto &offset  = partner.projection.offset;
     const double couple = has_friction ? offset.norm() :
                                          (offset - partner.gap * partner.normal).norm();
-    const bool levered  = turns_with_segments && couple > 1e-14 * pair.size &&
+    const bool levered  = couple > 1e-14 * pair.size &&
                          contact.gap_model == SurfaceContact::GapModel::point_to_segment;
     for (unsigned int k = 0; k < 4; ++k)
       if (levered || partner.projection.N[k] != 0.)
@@ -354,7 +354,7 @@ namespace akmon
         if (!complete(x, s, partner))
           continue;
         pairs.push_back(make_pair(x, s, partner));
-        if (turns_with_segments && distance <= reach)
+        if (coupled && distance <= reach)
           {
             add_valley_pairs(x, reach, partner, pairs);
             add_corner_pairs(x, reach, pairs);

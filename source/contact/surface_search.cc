@@ -75,7 +75,7 @@ namespace akmon
     , interface(interface)
     , number(number)
     , reversed(reversed)
-    , turns_with_segments(coupled)
+    , coupled(coupled)
     , has_friction(contact.friction.static_coefficient > 0.)
     , slave_faces(select_faces(discretization, contact, "Slave", contact.slaves))
     , master_faces(select_faces(discretization, contact, "Master", contact.masters))

@@ -25,7 +25,7 @@ namespace akmon
      * Throws InputError for unknown surfaces.
      * @param number    of this search among all, for its pairs
      * @param reversed  the contact's masters are the slaves of this search and the other way round
-     * @param coupled   for the coupled solver: pairs have levers, corners a pair per face
+     * @param coupled   for the coupled solver: corners have a pair per face
      */
     SurfaceSearch(const Discretization &discretization,
                   const SurfaceContact &contact,
@@ -185,7 +185,7 @@ namespace akmon
     const Discretization &discretization;
     const SurfaceContact &contact;
     const unsigned int interface, number;
-    const bool reversed, turns_with_segments, has_friction;
+    const bool reversed, coupled, has_friction;
     double least_radius, search_radius;
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
 
