@@ -24,6 +24,7 @@ namespace akmon
     , field_tick(parameters.output.fields)
     , history_tick(parameters.output.history)
     , history(parameters.output_directory + "/history.csv", watched.discretization.communicator())
+    , interfaces(parameters.output_directory, watched.contact, watched.state)
     , fields(parameters.output_directory,
              watched.discretization,
              watched.internal_forces,
@@ -72,6 +73,7 @@ namespace akmon
     level_written = false;
     account_work();
     report = watched.contact.report(watched.state);
+    interfaces.observe(report);
     if (report.max_penetration_relative > deepest.size)
       deepest = {report.max_penetration_relative,
                  report.place,
@@ -122,8 +124,6 @@ namespace akmon
           const RigidBody::Work work = (body.*of_body)();
           sum.external += work.external;
           sum.damping += work.damping;
-          sum.normal += work.normal;
-          sum.tangential += work.tangential;
         }
     return sum;
   }
@@ -148,17 +148,11 @@ namespace akmon
     add(damping, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
       return rigid.damping - watched.integrator.damping_work(increment);
     });
-    add(impact, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
-      return -watched.contact.work(increment).normal - rigid.normal;
-    });
-    add(friction, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
-      return -watched.contact.work(increment).tangential - rigid.tangential;
-    });
   }
 
 
-  // What rounding of coordinates X to eps |X| looks like: nodes that move by a thousand times that in
-  // each step, M (1000 eps max|X| / dt)^2. Energies below it say nothing about their balance.
+  // What rounding of coordinates X to eps |X| looks like: nodes that move by a thousand times that
+  // in each step, M (1000 eps max|X| / dt)^2. Energies below it say nothing about their balance.
   double
   Monitor::energy_of_rounding() const
   {
@@ -182,8 +176,8 @@ namespace akmon
                                           watched.internal_forces.internal_work(),
                                           watched.internal_forces.plastic_work(),
                                           damping.value(),
-                                          friction.value(),
-                                          impact.value(),
+                                          interfaces.friction_dissipation(),
+                                          interfaces.impact_dissipation(),
                                           watched.internal_forces.hourglass_work(),
                                           external.value()}};
     std::array<double, 8> all;
@@ -250,18 +244,18 @@ namespace akmon
   Monitor::write_row()
   {
     const MPI_Comm communicator = watched.discretization.communicator();
-    std::vector<double> row = {watched.state.time,
-                               watched.state.dt_next,
-                               balance.kinetic,
-                               balance.strain,
-                               balance.plastic_dissipation,
-                               balance.damping_dissipation,
-                               balance.friction_dissipation,
-                               balance.impact_dissipation,
-                               balance.hourglass,
-                               balance.external_work,
-                               energy_error()};
-    const auto append       = [&](const std::vector<double> &values) {
+    std::vector<double> row     = {watched.state.time,
+                                   watched.state.dt_next,
+                                   balance.kinetic,
+                                   balance.strain,
+                                   balance.plastic_dissipation,
+                                   balance.damping_dissipation,
+                                   balance.friction_dissipation,
+                                   balance.impact_dissipation,
+                                   balance.hourglass,
+                                   balance.external_work,
+                                   energy_error()};
+    const auto append           = [&](const std::vector<double> &values) {
       row.insert(row.end(), values.begin(), values.end());
     };
     append(momenta());
@@ -272,9 +266,9 @@ namespace akmon
     penetration = penetration_relative = 0.;
 
     std::vector<double> sums = {double(report.active_pairs), double(report.sticking_pairs)};
-    for (const auto &force : report.forces)
+    for (const auto &interface : report.interfaces)
       for (unsigned int d = 0; d < 3; ++d)
-        sums.push_back(force[d]);
+        sums.push_back(interface.force()[d]);
     Utilities::MPI::sum(sums, communicator, sums);
     sums.insert(sums.begin() + 2, double(report.iterations));
     append(sums);
@@ -284,5 +278,6 @@ namespace akmon
           append({value[0], value[1], value[2]});
     append(probes.values(watched.state));
     history.write_row(row);
+    interfaces.write_row(report);
   }
 } // namespace akmon
