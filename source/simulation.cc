@@ -262,7 +262,9 @@ namespace akmon
 
     std::string bodies;
     for (const auto &body : parameters.bodies)
-      bodies += (bodies.empty() ? "" : ", ") + body.name;
+      if (body.copy == 0)
+        bodies += (bodies.empty() ? "" : ", ") + body.section_name() +
+                  (body.family.empty() ? "" : " (" + std::to_string(body.copies.n()) + " copies)");
     screen.header(
       {{"case", parameters.title},
        {"bodies", bodies},

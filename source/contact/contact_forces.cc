@@ -279,17 +279,21 @@ namespace akmon
                                      pair.interface,
                                      pair.slave_id,
                                      pair.at_node(k, pair.normal_force * pair.normal),
-                                     pair.at_node(k, pair.tangential_force)});
+                                     pair.at_node(k, pair.tangential_force),
+                                     pair.sticks});
     nodes.send_to_owners(contributions);
 
     forces.clear();
     for (const auto &contribution : contributions)
       {
         const unsigned int node = nodes.local_node(nodes.number(contribution.node));
-        if (forces.empty() || forces.back().node != node)
-          forces.push_back({node, {}, {}});
-        forces.back().normal += contribution.normal;
-        forces.back().tangential += contribution.tangential;
+        if (forces.empty() || forces.back().node != node ||
+            forces.back().interface != contribution.interface)
+          forces.push_back({node, contribution.interface, {}, {}, false});
+        auto &force = forces.back();
+        force.normal += contribution.normal;
+        force.tangential += contribution.tangential;
+        force.sticks = force.sticks || contribution.sticks;
       }
     for (const auto &force : forces)
       {
@@ -332,16 +336,36 @@ namespace akmon
   }
 
 
-  Contact::Work
-  Contact::work(const NodalVector &increment) const
+  std::vector<Contact::Work>
+  Contact::works(const NodalVector &increment, RigidIncrement (RigidBody::*motion)() const) const
   {
-    Work sum;
+    std::vector<Work> sums(contacts.size() + bodies.size());
     for (const auto &force : forces)
       {
         const auto step = at_node(increment, force.node);
-        sum.normal += force.normal * step;
-        sum.tangential += force.tangential * step;
+        sums[force.interface].normal += force.normal * step;
+        sums[force.interface].tangential += force.tangential * step;
       }
-    return sum;
+    if (rigid_nodes.n == 0)
+      return sums;
+    std::vector<Tensor<1, 3>> steps(rigid_nodes.n);
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      if (bodies[i].moves())
+        {
+          const RigidIncrement step       = (bodies[i].*motion)();
+          steps[rigid_nodes.first[i]]     = step.centre;
+          steps[rigid_nodes.first[i] + 1] = step.rotation;
+        }
+    for (const auto &pair : pairs)
+      if (pair.normal_force > 0.)
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          if (pair.nodes[k] >= nodes.first_common())
+            {
+              const auto &step = steps[pair.nodes[k] - nodes.first_common()];
+              sums[pair.interface].normal += pair.at_node(k, pair.normal_force * pair.normal) *
+                                             step;
+              sums[pair.interface].tangential += pair.at_node(k, pair.tangential_force) * step;
+            }
+    return sums;
   }
 } // namespace akmon

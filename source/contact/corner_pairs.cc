@@ -35,6 +35,8 @@ namespace akmon
     constexpr double nearly_flat = 0.99875; // cosine of 0.05
     constexpr double part        = 0.25;    // of the reach: what slaves slide in a step at most
 
+    if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
+      return;
     const std::size_t first  = pairs.size() - 1;
     const unsigned int slave = pairs[first].row, first_face = partner.face;
     const auto point  = x[slaves[slave].number];
@@ -60,7 +62,7 @@ namespace akmon
           neighbour.projection = project(point, corners);
           neighbour.normal     = face_normal(x, neighbour);
           neighbour.gap        = neighbour.normal * neighbour.projection.offset;
-          const auto beside = neighbour.projection.offset - neighbour.gap * neighbour.normal;
+          const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
           if (neighbour.gap <= reach && beside.norm() <= part * reach)
             add_to_corner(first, make_pair(x, slave, neighbour), pairs);
         }

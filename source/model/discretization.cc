@@ -88,7 +88,7 @@ namespace akmon
           return m.name == body.material;
         });
         if (found == materials.end())
-          throw InputError("Bodies/" + body.name,
+          throw InputError("Bodies/" + body.section_name(),
                            "Material",
                            body.material,
                            "there is no material of this name in Materials/Names");
@@ -114,7 +114,7 @@ namespace akmon
 
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
-        BodyMesh mesh = make_body_mesh(bodies[b].mesh, "Bodies/" + bodies[b].name);
+        BodyMesh mesh = make_body_mesh(bodies[b].mesh, "Bodies/" + bodies[b].section_name());
         mesh.place(bodies[b].rotation, bodies[b].position);
         centres.push_back(centroid(mesh));
 
@@ -333,7 +333,10 @@ namespace akmon
       {
         if (bodies[b].name == name)
           return b;
-        known += (b ? ", " : "") + bodies[b].name;
+        if (bodies[b].copy == 0)
+          known += (b ? ", " : "") + bodies[b].name;
+        if (b > 0 && bodies[b].copy > 0 && (b + 1 == bodies.size() || bodies[b + 1].copy == 0))
+          known += " ... " + bodies[b].name;
       }
     throw InputError(section, key, name, "there is no such body; allowed are " + known);
   }
@@ -351,20 +354,25 @@ namespace akmon
           every.insert(of_body.at("all").begin(), of_body.at("all").end());
         return every;
       }
-    const auto colon        = part.find(':');
-    const std::string name  = colon == std::string::npos ? "all" : part.substr(colon + 1);
-    const unsigned int body = body_index(section, key, part.substr(0, colon));
-    const auto found        = parts[body].find(name);
-    if (found == parts[body].end())
-      {
-        std::string known;
-        for (const auto &entry : parts[body])
-          known += (known.empty() ? "" : ", ") + entry.first;
-        throw InputError(section,
-                         key,
-                         part,
-                         "body '" + bodies[body].name + "' has the parts " + known);
-      }
-    return found->second;
+    const auto colon       = part.find(':');
+    const std::string name = colon == std::string::npos ? "all" : part.substr(colon + 1);
+    const std::string body = part.substr(0, colon);
+    std::set<types::boundary_id> ids;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b].is_called(body))
+        {
+          const auto found = parts[b].find(name);
+          if (found == parts[b].end())
+            {
+              std::string known;
+              for (const auto &entry : parts[b])
+                known += (known.empty() ? "" : ", ") + entry.first;
+              throw InputError(section, key, part, "body '" + body + "' has the parts " + known);
+            }
+          ids.insert(found->second.begin(), found->second.end());
+        }
+    if (ids.empty())
+      body_index(section, key, body); // throws
+    return ids;
   }
 } // namespace akmon

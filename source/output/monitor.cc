@@ -24,6 +24,7 @@ namespace akmon
     , field_tick(parameters.output.fields)
     , history_tick(parameters.output.history)
     , history(parameters.output_directory + "/history.csv", watched.discretization.communicator())
+    , interfaces(parameters.output_directory, watched.contact, watched.state)
     , fields(parameters.output_directory,
              watched.discretization,
              watched.internal_forces,
@@ -76,6 +77,7 @@ namespace akmon
     solver_record.steps += report.iterations > 0;
     solver_record.unconverged += !report.converged;
     solver_record.residual = std::max(solver_record.residual, report.residual);
+    interfaces.observe(report);
     if (report.max_penetration_relative > deepest.size)
       deepest = {report.max_penetration_relative,
                  report.place,
@@ -126,8 +128,6 @@ namespace akmon
           const RigidBody::Work work = (body.*of_body)();
           sum.external += work.external;
           sum.damping += work.damping;
-          sum.normal += work.normal;
-          sum.tangential += work.tangential;
         }
     return sum;
   }
@@ -151,12 +151,6 @@ namespace akmon
     });
     add(damping, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
       return rigid.damping - watched.integrator.damping_work(increment);
-    });
-    add(impact, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
-      return -watched.contact.work(increment).normal - rigid.normal;
-    });
-    add(friction, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
-      return -watched.contact.work(increment).tangential - rigid.tangential;
     });
   }
 
@@ -186,8 +180,8 @@ namespace akmon
                                           watched.internal_forces.internal_work(),
                                           watched.internal_forces.plastic_work(),
                                           damping.value(),
-                                          friction.value(),
-                                          impact.value(),
+                                          interfaces.friction_dissipation(),
+                                          interfaces.impact_dissipation(),
                                           watched.internal_forces.hourglass_work(),
                                           external.value()}};
     std::array<double, 8> all;
@@ -276,9 +270,9 @@ namespace akmon
     penetration = penetration_relative = 0.;
 
     std::vector<double> sums = {double(report.active_pairs), double(report.sticking_pairs)};
-    for (const auto &force : report.forces)
+    for (const auto &interface : report.interfaces)
       for (unsigned int d = 0; d < 3; ++d)
-        sums.push_back(force[d]);
+        sums.push_back(interface.force()[d]);
     Utilities::MPI::sum(sums, communicator, sums);
     sums.insert(sums.begin() + 2, double(report.iterations));
     append(sums);
@@ -288,5 +282,6 @@ namespace akmon
           append({value[0], value[1], value[2]});
     append(probes.values(watched.state));
     history.write_row(row);
+    interfaces.write_row(report);
   }
 } // namespace akmon

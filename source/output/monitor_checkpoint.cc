@@ -13,7 +13,7 @@ namespace akmon
   {
     const MPI_Comm communicator = watched.discretization.communicator();
     std::vector<double> works;
-    for (const WorkLine *const line : {&external, &damping, &friction, &impact})
+    for (const WorkLine *const line : {&external, &damping})
       for (const double part : line->parts())
         works.push_back(part);
     checkpoint.part_of_rank("work_lines", works);
@@ -30,6 +30,7 @@ namespace akmon
                         solver_record.residual});
     checkpoint.numbers("output_ticks", {field_tick.next, history_tick.next});
     checkpoint.integer("history_size", history.secure());
+    interfaces.save(checkpoint);
     fields.save(checkpoint);
   }
 
@@ -39,7 +40,7 @@ namespace akmon
   {
     const auto works  = checkpoint.sum_of_rank("work_lines", watched.discretization.communicator());
     unsigned int next = 0;
-    for (WorkLine *const line : {&external, &damping, &friction, &impact})
+    for (WorkLine *const line : {&external, &damping})
       {
         line->continue_from({{works.at(next), works.at(next + 1)}});
         next += 2;
@@ -62,6 +63,7 @@ namespace akmon
     history_size      = checkpoint.integer("history_size");
     fields.restore(checkpoint);
     history.check_beginning(history_size);
+    interfaces.restore(checkpoint);
   }
 
 
@@ -69,5 +71,6 @@ namespace akmon
   Monitor::continue_output()
   {
     history.continue_behind(history_size);
+    interfaces.continue_output();
   }
 } // namespace akmon

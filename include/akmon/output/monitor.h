@@ -9,6 +9,7 @@
 #include <akmon/output/energy_balance.h>
 #include <akmon/output/fields.h>
 #include <akmon/output/history.h>
+#include <akmon/output/interface_history.h>
 #include <akmon/output/probes.h>
 #include <akmon/time/fidcd.h>
 
@@ -151,10 +152,11 @@ namespace akmon
     Watched watched;
     OutputTick field_tick, history_tick;
     History history;
+    InterfaceHistory interfaces;
     Fields fields;
     Probes probes;
 
-    WorkLine external, damping, friction, impact;
+    WorkLine external, damping;
     EnergyBalance balance;
     double initial_energy = 0., largest_energy = 0.;
     ContactReport report;
