@@ -55,7 +55,6 @@ namespace akmon::benchmark
     const std::string cylinder = "Bodies/bar/Cylinder/Cells ";
     const auto parameters      = Case::read(std::string(AKMON_SOURCE_DIR) + "/prm/taylor_bar.prm",
                                        {"Output directory=memory_benchmark",
-                                             "Probes/Names=",
                                              cylinder + "across=40",
                                              cylinder + "radial=20",
                                              cylinder + "axial=210"});

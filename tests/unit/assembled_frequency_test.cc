@@ -36,12 +36,12 @@ namespace
 
   Body
   block(const std::string &material,
-        const Vector &size,
+        const std::array<double, 3> &size,
         const std::array<unsigned int, 3> &cells,
         const CellIntegration integration)
   {
     BoxShape shape;
-    shape.size    = size;
+    shape.size    = Vector({size[0], size[1], size[2]});
     shape.cells   = cells;
     Body body     = body_of(shape, integration);
     body.name     = material;
@@ -84,7 +84,7 @@ namespace
       {
         const Material material = material_of("cubes", 1., .3);
         Model model({block("cubes",
-                           {.1 * known.cells[0], .1 * known.cells[1], .1 * known.cells[2]},
+                           {{.1 * known.cells[0], .1 * known.cells[1], .1 * known.cells[2]}},
                            known.cells,
                            CellIntegration::full)},
                     {material});
@@ -102,7 +102,7 @@ namespace
   TEST(AssembledFrequency, OfABarIsTwiceTheWaveSpeedOverTheCell)
   {
     const Material material = material_of("bar", 4., 0.);
-    Model model({block("bar", {1., 1., 2.}, {{1, 1, 20}}, CellIntegration::full)}, {material});
+    Model model({block("bar", {{1., 1., 2.}}, {{1, 1, 20}}, CellIntegration::full)}, {material});
     const double bound = model.frequency.estimate(model.discretization.reference);
     report("bar, omega h/c", std::sqrt(bound) * .1 / 2.);
     EXPECT_GE(std::sqrt(bound) * .1 / 2., 2. * (1. - 1e-12));
@@ -113,9 +113,9 @@ namespace
   // The stiffer body's, whatever the other one has.
   TEST(AssembledFrequency, OfTwoBodiesIsThatOfTheOneThatGoverns)
   {
-    Body soft               = block("soft", {.4, .4, .4}, {{4, 4, 4}}, CellIntegration::full);
+    Body soft               = block("soft", {{.4, .4, .4}}, {{4, 4, 4}}, CellIntegration::full);
     soft.position           = Vector({5., 0., 0.});
-    const Body stiff        = block("stiff", {.4, .4, .4}, {{4, 4, 4}}, CellIntegration::full);
+    const Body stiff        = block("stiff", {{.4, .4, .4}}, {{4, 4, 4}}, CellIntegration::full);
     const Material of_stiff = material_of("stiff", 3., .3);
     Model model({soft, stiff}, {material_of("soft", 1., .3), of_stiff});
     const double dt = step_over(model.frequency.estimate(model.discretization.reference),
@@ -157,16 +157,16 @@ namespace
   TEST(MassScaling, TakesFrequenciesToTheLimitAndReportsWhatItAdds)
   {
     // All cells alike: four times the mass for twice the step.
-    Model all({block("all", {.2, .2, .2}, {{2, 2, 2}}, CellIntegration::full)},
+    Model all({block("all", {{.2, .2, .2}}, {{2, 2, 2}}, CellIntegration::full)},
               {material_of("all", 1., .3)});
     const double largest = all.forces.largest_cell_bound();
     EXPECT_NEAR(scale_masses(all.discretization, all.forces, .25 * largest), 3., 1e-9);
     EXPECT_NEAR(all.forces.largest_cell_bound() / (.25 * largest), 1., 1e-6);
 
     // A stiff block of the size of a soft one: only the stiff one's mass, half of all, grows.
-    Body soft     = block("soft", {.2, .2, .2}, {{2, 2, 2}}, CellIntegration::full);
+    Body soft     = block("soft", {{.2, .2, .2}}, {{2, 2, 2}}, CellIntegration::full);
     soft.position = Vector({5., 0., 0.});
-    Model two({soft, block("stiff", {.2, .2, .2}, {{2, 2, 2}}, CellIntegration::full)},
+    Model two({soft, block("stiff", {{.2, .2, .2}}, {{2, 2, 2}}, CellIntegration::full)},
               {material_of("soft", 1., .3), material_of("stiff", 2., .3)});
     EXPECT_NEAR(scale_masses(two.discretization, two.forces, largest), .5, 1e-6);
     EXPECT_EQ(scale_masses(two.discretization, two.forces, 2. * largest), 0.);

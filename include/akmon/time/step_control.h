@@ -15,7 +15,7 @@ namespace akmon
     double safety_factor = 0.9;
     double smallest      = 1e-3;  ///< of the automatic step, over the critical one of the start
     double scaled_step   = 0.;    ///< for which cells are made heavier; zero: none are
-    bool assembled       = true;  ///< omega_max of the assembled system, not of its cells
+    bool assembled       = false; ///< omega_max of the assembled system, not of its cells
     bool unstable        = false; ///< a fixed step above the critical one is accepted
 
     static void

@@ -20,6 +20,7 @@ namespace
     return {"Output directory=" + directory,
             "Output/Fields interval=0",
             "Output/History steps=0",
+            "Time/Critical step=assembled",
             "Bodies/bar/Cylinder/Cells across=4",
             "Bodies/bar/Cylinder/Cells radial=2",
             "Bodies/bar/Cylinder/Cells axial=24",
