@@ -286,13 +286,15 @@ namespace akmon
     // depend, in their last digits, on which cells a rank has.
     NodalVector lumped = make_vector();
     std::string inverted;
-    for (const auto &cell : cells)
+    for (std::size_t c = 0; c < cells.size(); ++c)
       {
+        const auto &cell     = cells[c];
+        const double density = mass_factor_of(c) * material_of(cell.body).density;
         double X[8][3], cell_mass[8];
         for (unsigned int v = 0; v < 8; ++v)
           for (unsigned int d = 0; d < 3; ++d)
             X[v][d] = reference.local_element(3 * cell.nodes[v] + d);
-        lump_cell_mass(X, material_of(cell.body).density, cell_mass);
+        lump_cell_mass(X, density, cell_mass);
         for (unsigned int v = 0; v < 8; ++v)
           {
             if (!(cell_mass[v] > 0.))
@@ -309,6 +311,14 @@ namespace akmon
     mass.resize(n_nodes);
     for (unsigned int node = 0; node < n_nodes; ++node)
       mass[node] = lumped.local_element(3 * node);
+  }
+
+
+  void
+  Discretization::scale_masses(std::vector<double> factors)
+  {
+    mass_factors = std::move(factors);
+    lump_masses();
   }
 
 
