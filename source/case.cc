@@ -267,7 +267,7 @@ namespace akmon
         known.push_back(material.name);
       for (const auto &body : result.bodies)
         if (std::find(known.begin(), known.end(), body.material) == known.end())
-          throw InputError("Bodies/" + body.name,
+          throw InputError("Bodies/" + body.section_name(),
                            "Material",
                            body.material,
                            "there is no such material; allowed are " +
@@ -288,7 +288,7 @@ namespace akmon
         result.output_directory = "output/" + std::filesystem::path(file).stem().string();
       parse_section(prm, "Time", result.time);
       result.materials          = parse_items<Material>(prm, names, "Materials");
-      result.bodies             = parse_items<Body>(prm, names, "Bodies");
+      result.bodies             = with_copies(parse_items<Body>(prm, names, "Bodies"));
       result.prescribed_motions = parse_items<PrescribedMotion>(prm, names, "Prescribed motion");
       result.surface_loads      = parse_items<SurfaceLoad>(prm, names, "Loads");
       parse_section(prm, "Body force", result.body_force);

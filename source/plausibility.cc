@@ -47,7 +47,7 @@ namespace akmon
                          const std::vector<std::string> &surfaces,
                          const NodalVector &velocity) const;
       bool
-      acts_on(const std::vector<std::string> &surfaces, const std::string &body) const;
+      acts_on(const std::vector<std::string> &surfaces, const Body &body) const;
       void
       check_units();
       void
@@ -148,10 +148,10 @@ namespace akmon
 
 
     bool
-    Plausibility::acts_on(const std::vector<std::string> &surfaces, const std::string &body) const
+    Plausibility::acts_on(const std::vector<std::string> &surfaces, const Body &body) const
     {
       return std::any_of(surfaces.begin(), surfaces.end(), [&](const std::string &surface) {
-        return surface == "all" || surface.substr(0, surface.find(':')) == body;
+        return surface == "all" || body.is_called(surface.substr(0, surface.find(':')));
       });
     }
 
@@ -165,6 +165,8 @@ namespace akmon
       double slowest = std::numeric_limits<double>::max(), fastest = 0.;
       for (unsigned int b = 0; b < bodies.size(); ++b)
         {
+          if (parameters.bodies[b].copy > 0)
+            continue; // as the first one
           const std::string body        = "body '" + parameters.bodies[b].name + "'";
           const Material &material      = discretization.material_of(b);
           const double c                = material.dilatational_wave_speed();
@@ -205,6 +207,8 @@ namespace akmon
       const double g = acceleration.vector(Point<3>(), 0.).norm();
       for (unsigned int b = 0; b < bodies.size(); ++b)
         {
+          if (parameters.bodies[b].copy > 0)
+            continue; // as the first one
           const Material &material = discretization.material_of(b);
           const double strain      = material.density * g * bodies[b].diagonal() /
                                 youngs_modulus(material.elasticity());
@@ -284,10 +288,12 @@ namespace akmon
       const bool weight = !parameters.body_force.acceleration.identically_zero();
       for (unsigned int b = 0; b < bodies.size(); ++b)
         {
+          if (parameters.bodies[b].copy > 0)
+            continue; // as the first one
           const std::string &name = parameters.bodies[b].name;
           const auto any          = [&](const auto &items, const auto &surfaces) {
             return std::any_of(items.begin(), items.end(), [&](const auto &item) {
-              return acts_on(surfaces(item), name);
+              return acts_on(surfaces(item), parameters.bodies[b]);
             });
           };
           const bool held    = any(parameters.prescribed_motions,

@@ -3,6 +3,7 @@
 #include <akmon/output/summary.h>
 #include <akmon/plausibility.h>
 #include <akmon/simulation.h>
+#include <akmon/time/mass_scaling.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -16,6 +17,17 @@ namespace akmon
 
   namespace
   {
+    // Beyond this part of the mass of all bodies, what mass scaling adds is worth a warning.
+    constexpr double much_added_mass = 0.05;
+
+
+    std::string
+    percent_text(const double part)
+    {
+      return shortest_text(std::round(1e4 * part) * 1e-2) + " %";
+    }
+
+
     std::vector<RigidBody>
     make_rigid_bodies(const Case &parameters)
     {
@@ -53,6 +65,7 @@ namespace akmon
     , rigid_bodies(make_rigid_bodies(this->parameters))
     , external_forces(discretization, this->parameters.surface_loads, this->parameters.body_force)
     , internal_forces(discretization)
+    , assembled_frequency(discretization, internal_forces)
     , contact(discretization,
               this->parameters.contact_solver,
               this->parameters.contacts,
@@ -65,8 +78,13 @@ namespace akmon
     , n_cells(discretization.triangulation.n_global_active_cells())
     , stages(timer)
   {
-    initial_frequency_squared = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
-                                                    communicator);
+    added_mass                = scale_masses(discretization,
+                              internal_forces,
+                              parameters.time.mass_scaling_limit());
+    initial_cell_frequency    = Utilities::MPI::max(internal_forces.largest_frequency_squared(),
+                                                 communicator);
+    initial_frequency_squared = parameters.time.assembled ? assembled_frequency.estimate(state.x) :
+                                                            initial_cell_frequency;
     refuse_body_overlap(discretization);
     contact.search(state);
     contact.refuse_initial_overlap(state);
@@ -248,7 +266,7 @@ namespace akmon
     const double critical = 2. / std::sqrt(initial_frequency_squared);
     // The rank whose cell limits the step says where that is.
     std::string limit;
-    if (internal_forces.largest_initial_frequency_squared() == initial_frequency_squared &&
+    if (internal_forces.largest_initial_frequency_squared() == initial_cell_frequency &&
         !discretization.cells.empty())
       {
         const auto &cell = discretization.cells[internal_forces.limiting_cell()];
@@ -261,29 +279,36 @@ namespace akmon
       if (limit.empty())
         limit = of_rank;
 
+    if (initial_frequency_squared < initial_cell_frequency)
+      limit = "the assembled system; alone, " + limit + " allows " +
+              percent_text(std::sqrt(initial_frequency_squared / initial_cell_frequency)) +
+              " of that";
+
     std::string bodies;
     for (const auto &body : parameters.bodies)
-      bodies += (bodies.empty() ? "" : ", ") + body.name;
-    screen.header(
-      {{"case", parameters.title},
-       {"bodies", bodies},
-       {"cells", std::to_string(n_cells)},
-       {"nodes", std::to_string(discretization.dof_handler.n_dofs() / 3)},
-       {"ranks", std::to_string(Utilities::MPI::n_mpi_processes(communicator))},
-       {"SIMD lanes", std::to_string(n_lanes)},
-       {"time step",
-        shortest_text(state.dt_next) + ", " +
-          shortest_text(std::round(state.dt_next / critical * 1e4) * 1e-2) + " % of critical" +
-          (parameters.time.automatic() ? " (automatic)" : " (fixed)")},
-       {"limited by", limit},
-       {"end", shortest_text(parameters.time.end)},
-       {"output", parameters.output_directory}});
+      if (body.copy == 0)
+        bodies += (bodies.empty() ? "" : ", ") + body.section_name() +
+                  (body.family.empty() ? "" : " (" + std::to_string(body.copies.n()) + " copies)");
+    screen.header({{"case", parameters.title},
+                   {"bodies", bodies},
+                   {"cells", std::to_string(n_cells)},
+                   {"nodes", std::to_string(discretization.dof_handler.n_dofs() / 3)},
+                   {"ranks", std::to_string(Utilities::MPI::n_mpi_processes(communicator))},
+                   {"SIMD lanes", std::to_string(n_lanes)},
+                   {"time step",
+                    shortest_text(state.dt_next) + ", " + percent_text(state.dt_next / critical) +
+                      " of critical" + (parameters.time.automatic() ? " (automatic)" : " (fixed)")},
+                   {"limited by", limit},
+                   {"end", shortest_text(parameters.time.end)},
+                   {"output", parameters.output_directory}});
     for (const auto &obstacle : parameters.obstacles)
       for (const auto &repair : obstacle.repairs)
         screen.warning(repair);
     if (state.dt_next > critical)
-      screen.warning("the time step is above the critical step " + shortest_text(critical) +
-                     " of the smallest cell");
+      screen.warning("the time step is above the critical step " + shortest_text(critical));
+    if (added_mass > much_added_mass)
+      screen.warning("mass scaling adds " + percent_text(added_mass) +
+                     " to the mass of the bodies; look at what it does to their motion");
   }
 
 
@@ -318,6 +343,12 @@ namespace akmon
         imbalance[total.name] = total.imbalance;
       }
     const auto &extremes = monitor->extremes();
+    const auto &solver   = monitor->contact_solver();
+    if (solver.unconverged > 0.)
+      screen.warning("contact: " + shortest_text(solver.unconverged) + " of " +
+                     shortest_text(state.step) +
+                     " steps ended above the solver's tolerance, the worst with gaps wrong by " +
+                     shortest_text(solver.residual) + " of the cell size");
     Summary summary;
     summary.set("title", parameters.title);
     summary.set("completed", status == ExitStatus::done);
@@ -332,11 +363,14 @@ namespace akmon
     summary.set("stage_seconds", seconds);
     summary.set("stage_imbalance", imbalance);
     summary.set("eroded_cells", n_eroded);
+    summary.set("added_mass_rel", added_mass);
     summary.set("max_penetration", extremes.penetration);
     summary.set("max_penetration_rel", extremes.penetration_relative);
     summary.set("energy_error", extremes.energy_error);
     if (parameters.contact_solver.type == ContactSolver::Type::penalty)
       summary.set("penalty_step_cut", penalty_cut);
+    summary.set("contact_iterations_mean", solver.iterations / std::max(solver.steps, 1.));
+    summary.set("contact_steps_unconverged", solver.unconverged);
     char hash[20];
     std::snprintf(hash, sizeof(hash), "%016llx", static_cast<unsigned long long>(state_hash()));
     summary.set("state_hash", std::string(hash));

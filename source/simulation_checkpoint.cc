@@ -79,6 +79,7 @@ namespace akmon
         checkpoint.text("warnings", warnings);
         state.save(checkpoint);
         internal_forces.save(checkpoint);
+        assembled_frequency.save(checkpoint);
         contact.save(checkpoint);
         std::vector<double> of_rigid_bodies = {double(rigid_bodies.size())};
         for (auto &body : rigid_bodies)
@@ -144,6 +145,7 @@ namespace akmon
           refuse("its mesh or its materials are not those of the case");
         state.restore(reader);
         internal_forces.restore(reader);
+        assembled_frequency.restore(reader);
         n_eroded_here = internal_forces.n_eroded();
         n_eroded      = Utilities::MPI::sum(n_eroded_here, communicator);
         contact.restore(reader);

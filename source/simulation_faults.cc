@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 // What the ranks agree on in each step, and the faults that end a run or take cells out of it.
 
@@ -40,7 +41,7 @@ namespace akmon
                        "Step",
                        shortest_text(parameters.time.fixed_step),
                        "it is above the critical step " + shortest_text(critical) +
-                         " of the smallest cell; allowed with 'Allow unstable step = true' only");
+                         "; allowed with 'Allow unstable step = true' only");
   }
 
 
@@ -50,10 +51,12 @@ namespace akmon
   Simulation::agree_on_step()
   {
     const bool erodes            = internal_forces.n_eroded() != n_eroded_here;
-    std::array<double, 4> of_all = {{internal_forces.largest_frequency_squared(),
+    std::array<double, 6> of_all = {{internal_forces.largest_frequency_squared(),
                                      double(wanted_checkpoint()),
                                      internal_forces.fault().occurred() ? 1. : 0.,
-                                     erodes ? 1. : 0.}};
+                                     erodes ? 1. : 0.,
+                                     internal_forces.growth().watched,
+                                     internal_forces.growth().elsewhere}};
     Utilities::MPI::max(ArrayView<const double>(of_all.data(), of_all.size()),
                         communicator,
                         ArrayView<double>(of_all.data(), of_all.size()));
@@ -62,9 +65,9 @@ namespace akmon
       throw_cell_fault();
     if (of_all[3] > 0.)
       count_eroded();
-    internal_forces.govern(of_all[0]);
-    keep_step_from_collapsing(of_all[0]);
-    state.dt_next = step_with_penalty(of_all[0]);
+    double frequency_squared = bound_frequency(of_all[0], {of_all[4], of_all[5]});
+    keep_step_from_collapsing(frequency_squared);
+    state.dt_next = step_with_penalty(frequency_squared);
     if (!(state.dt_next > 0.))
       throw RunError(ExitStatus::not_a_number, level_text() + "the time step is not a number");
   }
@@ -118,6 +121,21 @@ namespace akmon
   }
 
 
+  // Where the step is that of the assembled system, cells need no tight bounds but at its
+  // estimates.
+  double
+  Simulation::bound_frequency(const double largest_of_cells, const InternalForces::Growth &growth)
+  {
+    if (!parameters.time.assembled || !parameters.time.automatic())
+      {
+        internal_forces.govern(largest_of_cells);
+        return largest_of_cells;
+      }
+    internal_forces.govern(std::numeric_limits<double>::infinity());
+    return assembled_frequency.follow(state.x, growth, largest_of_cells);
+  }
+
+
   void
   Simulation::throw_cell_fault() const
   {
@@ -148,12 +166,13 @@ namespace akmon
       return;
     internal_forces.erode_beyond(limit);
     count_eroded();
-    const double of_rank = internal_forces.largest_frequency_squared();
-    frequency_squared    = Utilities::MPI::max(of_rank, communicator);
+    const double of_rank = internal_forces.largest_frequency_squared(),
+                 of_all  = Utilities::MPI::max(of_rank, communicator);
+    frequency_squared = parameters.time.assembled ? assembled_frequency.estimate(state.x) : of_all;
     if (!(frequency_squared > limit))
       return;
     std::string message;
-    if (of_rank == frequency_squared)
+    if (of_rank == of_all)
       {
         const auto &cell = discretization.cells[internal_forces.limiting_cell_now()];
         message          = "the critical step has fallen from " +

@@ -11,6 +11,7 @@
 #include <akmon/output/screen.h>
 #include <akmon/output/stage_timer.h>
 #include <akmon/signal_watch.h>
+#include <akmon/time/assembled_frequency.h>
 #include <akmon/time/fidcd.h>
 
 #include <chrono>
@@ -69,6 +70,12 @@ namespace akmon
       return contact;
     }
 
+    const AssembledFrequency &
+    frequency() const
+    {
+      return assembled_frequency;
+    }
+
     const Monitor &
     watch() const
     {
@@ -90,6 +97,8 @@ namespace akmon
     free_rigid_increments();
     void
     agree_on_step();
+    double
+    bound_frequency(const double largest_of_cells, const InternalForces::Growth &growth);
     SignalWatch::Request
     wanted_checkpoint();
     void
@@ -130,6 +139,7 @@ namespace akmon
     std::vector<RigidBody> rigid_bodies;
     ExternalForces external_forces;
     InternalForces internal_forces;
+    AssembledFrequency assembled_frequency;
     Contact contact;
     Fidcd integrator;
     NodalVector velocity_0; ///< initial velocities; emptied after the start
@@ -140,8 +150,10 @@ namespace akmon
     SignalWatch::Request requested = SignalWatch::none; ///< in this step, the same on all ranks
     std::chrono::steady_clock::time_point wall_start, last_checkpoint;
     unsigned long n_cells = 0, first_step = 0;     ///< first_step: where this part of the run began
+    double added_mass      = 0.;                   ///< by mass scaling, over the mass there was
     unsigned long n_eroded = 0, n_eroded_here = 0; ///< of all ranks, of this one
-    double initial_frequency_squared = 0.;         ///< largest omega^2 of all ranks at the start
+    double initial_frequency_squared = 0.;         ///< bound of omega_max^2 at the start
+    double initial_cell_frequency    = 0.;         ///< largest omega^2 of a cell of any rank there
     double penalty_cut     = 1.;    ///< least critical step with penalty springs over that without
     double told_cut        = 1.;    ///< the last one on the screen
     bool soft_springs_told = false; ///< that penetrations are beyond their bound

@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <cstring>
 #include <fcntl.h>
+#include <filesystem>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -17,7 +18,8 @@ namespace akmon
     using dealii::Utilities::MPI::n_mpi_processes;
     using dealii::Utilities::MPI::this_mpi_process;
 
-    constexpr std::size_t slab_bytes = 1 << 22; ///< of a table, in memory at a time
+    constexpr std::size_t slab_bytes     = 1 << 22; ///< of a table, in memory at a time
+    constexpr std::size_t metadata_bytes = 1 << 16; ///< more than HDF5 adds around a table
 
 
     hid_t
@@ -98,6 +100,7 @@ namespace akmon
   CheckpointWriter::integer(const std::string &name, const std::uint64_t value)
   {
     const std::string what = "cannot write " + name + " into '" + temporary + "'";
+    reserve_space(0);
     const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose, what);
     const Hdf5Id
       attribute(H5Acreate2(file, name.c_str(), H5T_STD_U64LE, space, H5P_DEFAULT, H5P_DEFAULT),
@@ -113,6 +116,7 @@ namespace akmon
   {
     const std::string of_root = dealii::Utilities::MPI::broadcast(comm, value, 0);
     const std::string what    = "cannot write " + name + " into '" + temporary + "'";
+    reserve_space(of_root.size());
     const Hdf5Id type(H5Tcopy(H5T_C_S1), H5Tclose, what);
     check_hdf5(H5Tset_size(type, of_root.size() + 1), what);
     const Hdf5Id space(H5Screate(H5S_SCALAR), H5Sclose, what);
@@ -147,6 +151,7 @@ namespace akmon
         size[0] += counts[rank];
         start[0] += rank < me ? counts[rank] : 0;
       }
+    reserve_space(size[0] * width * sizeof(double));
     const Hdf5Id space(H5Screate_simple(2, size.data(), nullptr), H5Sclose, what);
     const Hdf5Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, what);
     // Equal states make equal files.
@@ -159,7 +164,6 @@ namespace akmon
       what);
     if (size[0] == 0 || width == 0)
       return;
-    reserve_space(dataset, size[0] * width * sizeof(double));
 
     const Hdf5Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
     if (counts.size() > 1)
@@ -192,20 +196,32 @@ namespace akmon
   }
 
 
-  // Ask the file system for the space of a table before HDF5 writes it: a full disk then shows
-  // while nothing is lost, and not in the middle of a collective write.
+  // Ask the file system for the space of what comes next, metadata included, before HDF5 knows of
+  // it: a full disk then shows while nothing is lost. HDF5 itself does not survive it; a file that
+  // it fails to close is freed twice at the end of the program.
   void
-  CheckpointWriter::reserve_space(const hid_t dataset, const std::uint64_t n_bytes)
+  CheckpointWriter::reserve_space(const std::uint64_t n_bytes)
   {
-    const haddr_t offset = H5Dget_offset(dataset);
+    const std::uint64_t begin = size_so_far();
     run_on_root(comm, [&]() {
       const int descriptor = open(temporary.c_str(), O_WRONLY);
-      const int error      = descriptor < 0 ? errno : posix_fallocate(descriptor, offset, n_bytes);
+      const int error      = descriptor < 0 ?
+                               errno :
+                               posix_fallocate(descriptor, begin, n_bytes + metadata_bytes);
       if (descriptor >= 0)
         close(descriptor);
       if (error != 0)
         throw std::runtime_error("cannot write '" + path + "': " + std::strerror(error));
     });
+  }
+
+
+  std::uint64_t
+  CheckpointWriter::size_so_far() const
+  {
+    hsize_t size = 0;
+    check_hdf5(H5Fget_filesize(file, &size), "cannot write '" + path + "'");
+    return size;
   }
 
 
@@ -215,7 +231,12 @@ namespace akmon
     std::string failure;
     try
       {
+        check_hdf5(H5Fflush(file, H5F_SCOPE_GLOBAL), "cannot write '" + path + "'");
+        const std::uint64_t size = size_so_far();
         file.close();
+        // HDF5 does not know of what was reserved and not used.
+        if (this_mpi_process(comm) == 0)
+          std::filesystem::resize_file(temporary, size);
       }
     catch (const std::runtime_error &error)
       {

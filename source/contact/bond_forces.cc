@@ -204,37 +204,57 @@ namespace akmon
         add_response(point, force / mass_factor, reached);
       }
 
-    std::vector<NodalForce> of_nodes(nodes.size());
     for (unsigned int i = 0; i < nodes.size(); ++i)
       reached[i] -= x[i];
     for (const unsigned int i : unbroken)
-      {
-        auto &point = points[i];
-        for (const auto &[node, weight] : point.row)
-          (point.softening ? of_nodes[node].failing : of_nodes[node].holding) += weight *
-                                                                                 point.force;
-        if (point.softening)
-          point.energy.add_level(-(point.force * relative(point, before)),
-                                 -(point.force * relative(point, reached)));
-      }
-    for (const auto &node : own)
-      if (uses[node.node] > 0)
-        {
-          forces.push_back(of_nodes[node.node]);
-          forces.back().node = node.local_node;
-        }
+      if (points[i].softening)
+        points[i].energy.add_level(-(points[i].force * relative(points[i], before)),
+                                   -(points[i].force * relative(points[i], reached)));
+    collect_forces();
     return forces;
   }
 
 
-  Tensor<1, 3>
-  Bonds::force_of(const unsigned int interface) const
+  // At the owned nodes, interface by interface.
+  void
+  Bonds::collect_forces()
   {
-    Tensor<1, 3> sum;
+    std::vector<NodalForce> of_nodes;
+    for (auto begin = unbroken.begin(); begin != unbroken.end();)
+      {
+        const unsigned int interface = points[*begin].interface;
+        of_nodes.assign(nodes.size(), NodalForce{});
+        for (; begin != unbroken.end() && points[*begin].interface == interface; ++begin)
+          for (const auto &[node, weight] : points[*begin].row)
+            (points[*begin].softening ? of_nodes[node].failing :
+                                        of_nodes[node].holding) += weight * points[*begin].force;
+        for (const auto &node : own)
+          if (uses[node.node] > 0)
+            {
+              forces.push_back(of_nodes[node.node]);
+              forces.back().node      = node.local_node;
+              forces.back().interface = interface;
+            }
+      }
+  }
+
+
+  Bonds::Load
+  Bonds::load_on(const unsigned int interface) const
+  {
+    Load load;
     for (const unsigned int i : unbroken)
       if (points[i].interface == interface)
-        sum += points[i].force;
-    return sum;
+        {
+          const auto &point = points[i];
+          const auto normal = (point.force * point.normal) * point.normal;
+          load.normal += normal;
+          load.tangential += point.force - normal;
+          for (const auto &[node, weight] : point.row)
+            if (weight > 0.) // of the slave side
+              load.moment += cross_product_3d(weight * x[node], point.force);
+        }
+    return load;
   }
 
 

@@ -26,6 +26,7 @@ namespace akmon
                const EssentialConditions &conditions)
     : discretization(discretization)
     , contacts(contacts)
+    , conditions(conditions)
   {
     std::vector<std::vector<BondPoint>> found(contacts.size());
     std::vector<std::vector<TiedFace>> slaves(contacts.size()), all_faces;
@@ -73,6 +74,15 @@ namespace akmon
           point.offset = relative(point, X);
           points.push_back(std::move(point));
         }
+    count_unbroken();
+  }
+
+
+  void
+  Bonds::update_mobilities()
+  {
+    if (!exist())
+      return;
     const auto W_of = [&](const Own &node) {
       return conditions.projector(node.local_node) / discretization.mass[node.local_node];
     };
@@ -84,14 +94,16 @@ namespace akmon
       const auto W_i = W_of(node);
       return Tensor<1, 3>({W_i[1][2], W_i[2][0], W_i[0][1]});
     });
-    W.resize(nodes.size());
+    std::vector<SymmetricTensor<2, 3>> found(nodes.size());
     for (unsigned int i = 0; i < nodes.size(); ++i)
       for (unsigned int d = 0; d < 3; ++d)
         {
-          W[i][d][d]                     = diagonal[i][d];
-          W[i][(d + 1) % 3][(d + 2) % 3] = off_diagonal[i][d];
+          found[i][d][d]                     = diagonal[i][d];
+          found[i][(d + 1) % 3][(d + 2) % 3] = off_diagonal[i][d];
         }
-    count_unbroken();
+    if (found != W)
+      full.valid = reduced.valid = false;
+    W = std::move(found);
   }
 
 

@@ -99,8 +99,8 @@ namespace akmon
   Contact::solve_coupled(const NodalState &state)
   {
     // Rigid shapes are exact: so are gaps from them.
-    const unsigned int most_rounds = bodies.empty() ? 4 : 8;
-    const double tolerance         = bodies.empty() ? 1e-7 : 1e-12; // of gaps, over the cell size
+    constexpr unsigned int most_rounds = 8;
+    const double tolerance = bodies.empty() ? 1e-7 : 1e-12; // of gaps, over the cell size
 
     coupled.solve(dx_free);
     for (unsigned int round = 1; round < most_rounds; ++round)
@@ -137,8 +137,7 @@ namespace akmon
   Contact::reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
   {
     if (pair.interface < contacts.size())
-      return pair.n_nodes > 1 && pair.slot == 0 &&
-             searches[pair.search].gap_at(x_reached, pair, gap);
+      return pair.n_nodes > 1 && searches[pair.search].gap_at(x_reached, pair, gap);
     if (pair.slave == numbers::invalid_unsigned_int)
       return std::any_of(rigid_touches.begin(), rigid_touches.end(), [&](const auto &touch) {
         return touch.gap_at(pair, poses, gap);
@@ -305,17 +304,21 @@ namespace akmon
                                      pair.interface,
                                      pair.slave_id,
                                      pair.at_node(k, pair.normal_force * pair.normal),
-                                     pair.at_node(k, pair.tangential_force)});
+                                     pair.at_node(k, pair.tangential_force),
+                                     pair.sticks});
     nodes.send_to_owners(contributions);
 
     forces.clear();
     for (const auto &contribution : contributions)
       {
         const unsigned int node = nodes.local_node(nodes.number(contribution.node));
-        if (forces.empty() || forces.back().node != node)
-          forces.push_back({node, {}, {}});
-        forces.back().normal += contribution.normal;
-        forces.back().tangential += contribution.tangential;
+        if (forces.empty() || forces.back().node != node ||
+            forces.back().interface != contribution.interface)
+          forces.push_back({node, contribution.interface, {}, {}, false});
+        auto &force = forces.back();
+        force.normal += contribution.normal;
+        force.tangential += contribution.tangential;
+        force.sticks = force.sticks || contribution.sticks;
       }
     for (const auto &force : forces)
       {
@@ -325,24 +328,6 @@ namespace akmon
           state.dx_next.local_element(3 * force.node + d) += increment[d];
       }
     add_bond_forces(state, effective_mass_factor);
-  }
-
-
-  // Of the bonds, which hold what contact moves too.
-  void
-  Contact::add_bond_forces(NodalState &state, const double effective_mass_factor)
-  {
-    std::map<unsigned int, Tensor<1, 3>> of_contact;
-    if (bonds->exist())
-      for (const auto &force : forces)
-        of_contact[force.node] = force.normal + force.tangential;
-    for (const auto &force : bonds->finish_step(state, effective_mass_factor, of_contact))
-      {
-        const auto increment = force.sum() /
-                               (discretization.mass[force.node] * effective_mass_factor);
-        for (unsigned int d = 0; d < 3; ++d)
-          state.dx_next.local_element(3 * force.node + d) += increment[d];
-      }
   }
 
 
@@ -374,25 +359,5 @@ namespace akmon
           const unsigned int n = rigid_nodes.first[i];
           bodies[i].add_contact({normal[n], normal[n + 1]}, {tangential[n], tangential[n + 1]});
         }
-  }
-
-
-  Contact::Work
-  Contact::work(const NodalVector &increment) const
-  {
-    Work sum;
-    for (const auto &force : forces)
-      {
-        const auto step = at_node(increment, force.node);
-        sum.normal += force.normal * step;
-        sum.tangential += force.tangential * step;
-      }
-    for (const auto &force : bonds->nodal_forces())
-      {
-        const auto step = at_node(increment, force.node);
-        sum.holding += force.holding * step;
-        sum.failing += force.failing * step;
-      }
-    return sum;
   }
 } // namespace akmon

@@ -18,29 +18,68 @@ namespace akmon
   {
     ContactReport report;
     report.iterations = coupled.iterations();
-    report.forces.resize(contacts.size() + bodies.size());
+    report.converged  = coupled.converged();
+    report.residual   = coupled.residual();
+    report.interfaces.resize(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
       {
-        report.max_penetration = std::max(report.max_penetration, -pair.gap);
-        if (-pair.gap / pair.size > report.max_penetration_relative)
+        const bool rigid                   = pair.slave == numbers::invalid_unsigned_int;
+        auto &interface                    = report.interfaces[pair.interface];
+        const double relative              = -pair.gap / pair.size;
+        report.max_penetration             = std::max(report.max_penetration, -pair.gap);
+        interface.max_penetration          = std::max(interface.max_penetration, -pair.gap);
+        interface.max_penetration_relative = std::max(interface.max_penetration_relative, relative);
+        if (relative > report.max_penetration_relative)
           {
-            report.max_penetration_relative = -pair.gap / pair.size;
-            report.place                    = Point<3>(pair.slave == numbers::invalid_unsigned_int ?
-                                                         pair.place :
-                                                         at_node(state.x, pair.slave));
-            report.deepest                  = pair.slave;
+            report.max_penetration_relative = relative;
+            report.place   = Point<3>(rigid ? pair.place : at_node(state.x, pair.slave));
+            report.deepest = pair.slave;
           }
-        report.active_pairs += pair.normal_force > 0.;
-        report.sticking_pairs += pair.normal_force > 0. && pair.sticks;
-        const auto force = pair.normal_force * pair.normal + pair.tangential_force;
-        // Of an obstacle, on what it touches.
-        const bool own = pair.slave == numbers::invalid_unsigned_int;
-        report.forces[pair.interface] += pair.reversed != own ? -force : force;
+        if (!(pair.normal_force > 0.))
+          continue;
+        ++report.active_pairs;
+        report.sticking_pairs += pair.sticks;
+        ++(pair.sticks ? interface.sticking_pairs : interface.slipping_pairs);
+        // On what an obstacle touches; where two rigid bodies do, the pair's force is on the first.
+        const double sign   = pair.reversed != rigid ? -1. : 1.;
+        const auto normal   = sign * pair.normal_force * pair.normal;
+        const auto friction = sign * pair.tangential_force;
+        interface.normal_force += normal;
+        interface.friction_force += friction;
+        interface.moment += cross_product_3d(rigid ? pair.place : at_node(state.x, pair.slave),
+                                             normal + friction);
       }
     if (Utilities::MPI::this_mpi_process(discretization.communicator()) == 0) // all know the bonds
       for (unsigned int i = 0; i < contacts.size(); ++i)
-        report.forces[i] += bonds->force_of(i);
+        {
+          const auto load = bonds->load_on(i);
+          report.interfaces[i].normal_force += load.normal;
+          report.interfaces[i].friction_force += load.tangential;
+          report.interfaces[i].moment += load.moment;
+        }
     return report;
+  }
+
+
+  std::vector<Contact::Patch>
+  Contact::patches(const NodalState &state) const
+  {
+    std::vector<Patch> result(contacts.size() + bodies.size());
+    for (const auto &pair : pairs)
+      if (pair.normal_force > 0. && pair.slave != numbers::invalid_unsigned_int)
+        {
+          const bool both_sides = solver.type != ContactSolver::Type::decoupled &&
+                                  pair.interface < contacts.size() &&
+                                  contacts[pair.interface].symmetric;
+          result[pair.interface].area += (both_sides ? 0.5 : 1.) *
+                                         areas.facing(state.x, pair.slave, pair.normal);
+        }
+    for (const auto &force : forces)
+      {
+        double &largest = result[force.interface].max_pressure;
+        largest         = std::max(largest, areas.pressure(state.x, force.node, force.normal));
+      }
+    return result;
   }
 
 

@@ -112,6 +112,7 @@ namespace akmon
     , rigid_touches(make_rigid_touches(bodies, contacts.size()))
     , rigid_nodes(bodies)
     , surface_nodes(owned_nodes(discretization, searches, obstacle_searches))
+    , areas(discretization.n_owned_nodes, contact_faces())
     , nodes(discretization, surface_nodes, rigid_nodes.n)
     , mobility(discretization, conditions)
     , bonds(std::make_unique<Bonds>(discretization, contacts, conditions))

@@ -1,5 +1,4 @@
 #include <akmon/contact/coupled_solver.h>
-#include <akmon/contact/projected_newton.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -13,33 +12,10 @@ namespace akmon
   namespace
   {
     // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
-    // for gaps (ProjectedNewton).
+    // for gaps (SemismoothNewton).
     constexpr double compliance = 1e-7;
 
-    // The contact problem in the unknowns tau_i = t_i/s_i, as ProjectedNewton wants it.
-    struct ScaledProblem
-    {
-      void
-      apply(const Delassus::Vector &tau, Delassus::Vector &y)
-      {
-        delassus.apply(tau, y);
-      }
 
-      void
-      limits(const Delassus::Vector &tau, std::vector<double> &radius) const
-      {
-        for (std::size_t i = 0; i < tau.size(); ++i)
-          radius[i] = friction[i] * tau[i][0];
-      }
-
-      Delassus &delassus;
-      const std::vector<double> &friction;
-    };
-  } // namespace
-
-
-  namespace
-  {
     // Where rigid bodies touch at more points than it takes, the gaps disagree by rounding, which
     // nothing can move: relative to the size of the pairs.
     double
@@ -65,6 +41,7 @@ namespace akmon
     , delassus_of_all(nodes, mobility, bonds)
     , delassus(nodes, mobility, bonds)
     , preconditioner(mobility, compliance)
+    , newton(delassus, preconditioner, nodes.get_communicator())
   {
   }
 
@@ -127,10 +104,12 @@ namespace akmon
       return;
     delassus.reinit(coupled, effective_mass_factor);
     preconditioner.set_pairs(coupled, delassus, effective_mass_factor);
-    norm = delassus.norm_bound();
-    weights.resize(coupled.size());
+    problem.norm = delassus.norm_bound();
+    problem.weights.resize(coupled.size());
     for (std::size_t i = 0; i < coupled.size(); ++i)
-      weights[i] = delassus.scale()[i] > 0. ? 1. / (delassus.scale()[i] * coupled[i]->size) : 0.;
+      problem.weights[i] = delassus.scale()[i] > 0. ?
+                             1. / (delassus.scale()[i] * coupled[i]->size) :
+                             0.;
   }
 
 
@@ -181,10 +160,11 @@ namespace akmon
 
     const auto &s       = delassus.scale();
     const std::size_t n = coupled.size();
-    ScaledProblem scaled{delassus, friction};
-    using Solver = ProjectedNewton<ScaledProblem, PairPreconditioner>;
-    Solver::Problem problem{Solver::Vector(n), weights, norm, friction_somewhere, compliance};
-    Solver::Vector tau(n);
+    problem.b.resize(n);
+    problem.friction   = friction;
+    problem.compliance = compliance;
+    problem.limit      = parameters.limit;
+    tau.resize(n);
     double violation = 0.;
     for (std::size_t i = 0; i < n; ++i)
       {
@@ -192,13 +172,12 @@ namespace akmon
         problem.b[i]     = s[i] * (delassus.frame(i) * pair.relative(dx_free));
         problem.b[i][0] += s[i] * pair.target_gap;
         tau[i]    = s[i] > 0. ? delassus.frame(i) * pair.force() / s[i] : Tensor<1, 3>();
-        violation = std::max(violation, -weights[i] * problem.b[i][0]);
+        violation = std::max(violation, -problem.weights[i] * problem.b[i][0]);
       }
-    const double tolerance = std::max(tolerance_for(violation),
-                                      Utilities::MPI::max(rounding_of_rigid_gaps(coupled),
-                                                          nodes.get_communicator()));
-    Solver solver(scaled, preconditioner, nodes.get_communicator(), tolerance, parameters.limit);
-    const auto result = solver.solve(problem, tau);
+    problem.tolerance = std::max(tolerance_for(violation),
+                                 Utilities::MPI::max(rounding_of_rigid_gaps(coupled),
+                                                     nodes.get_communicator()));
+    const auto result = newton.solve(problem, tau);
     n_iterations += result.n_applications;
     last_residual = std::max(last_residual, result.residual);
     all_converged = all_converged && result.converged;

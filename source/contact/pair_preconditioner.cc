@@ -62,19 +62,18 @@ namespace akmon
 
 
   void
-  PairPreconditioner::reinit(const std::vector<FreeDirections> &new_free)
+  PairPreconditioner::reinit(const std::vector<CoulombFace> &new_faces)
   {
-    free                = new_free;
+    faces               = new_faces;
     const auto set_rows = [&](Factor &factor, const auto &belongs) {
       factor.members.clear();
-      for (unsigned int i = 0; i < free.size(); ++i)
-        if (belongs(free[i]) && delassus->scale()[i] > 0.)
+      for (unsigned int i = 0; i < faces.size(); ++i)
+        if (belongs(faces[i]) && delassus->scale()[i] > 0.)
           factor.members.push_back(i);
     };
-    set_rows(normal, [](const FreeDirections &f) { return f.normal; });
-    set_rows(tangential, [](const FreeDirections &f) {
-      return f.tangential == FreeDirections::Tangential::disc;
-    });
+    set_rows(normal, [](const CoulombFace &f) { return f.normal; });
+    set_rows(tangential,
+             [](const CoulombFace &f) { return f.tangential == CoulombFace::Tangential::disc; });
     update(normal, true);
     update(tangential, false);
   }
@@ -134,8 +133,8 @@ namespace akmon
   PairPreconditioner::apply(const Vector &r, Vector &z)
   {
     for (std::size_t i = 0; i < r.size(); ++i)
-      z[i] = r[i] - (free[i].curvature / (1. + free[i].curvature) * (free[i].along * r[i])) *
-                      free[i].along;
+      z[i] = r[i] - (faces[i].curvature / (1. + faces[i].curvature) * (faces[i].along * r[i])) *
+                      faces[i].along;
 
     if (normal.valid && !normal.members.empty())
       {

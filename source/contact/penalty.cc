@@ -79,18 +79,20 @@ namespace akmon
   }
 
 
-  Contact::Work
-  Contact::stored_energy() const
+  std::vector<Contact::Work>
+  Contact::stored_energies() const
   {
-    Work sum;
-    if (solver.type == ContactSolver::Type::penalty)
+    std::vector<Work> sums(contacts.size() + bodies.size());
+    if (stores_energy())
       for (const auto &pair : pairs)
         if (pair.normal_force > 0.)
           {
-            sum.normal += 0.5 * pair.normal_force * pair.normal_force / spring(pair);
-            sum.tangential += 0.5 * pair.tangential_force.norm_square() / spring(pair);
+            sums[pair.interface].normal += 0.5 * pair.normal_force * pair.normal_force /
+                                           spring(pair);
+            sums[pair.interface].tangential += 0.5 * pair.tangential_force.norm_square() /
+                                               spring(pair);
           }
-    return sum;
+    return sums;
   }
 
 

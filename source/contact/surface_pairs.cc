@@ -10,9 +10,6 @@ namespace akmon
 
   namespace
   {
-    constexpr double opposed = 0.02; // cosine: sides of an edge do not look at each other
-
-
     // What the lever of a pair needs (see ContactPair): the corners' places from their centre, and
     // [o x] I^{-1}.
     void
@@ -86,14 +83,16 @@ namespace akmon
   }
 
 
-  unsigned int
-  SurfaceSearch::faces_sharing(const unsigned int node_a, const unsigned int node_b) const
+  // Whether a face looks towards the slave's surface and is no part of it.
+  bool
+  SurfaceSearch::opposes(const MasterFace &face,
+                         const Tensor<1, 3> &normal,
+                         const unsigned int slave) const
   {
-    unsigned int count = 0;
-    for (unsigned int i = faces_at_begin[node_a]; i < faces_at_begin[node_a + 1]; ++i)
-      for (const unsigned int node : masters[faces_at[i]].nodes)
-        count += node == node_b;
-    return count;
+    const auto &outward = outwards[slave];
+    return normal * outward <= -opposed * normal.norm() * outward.norm() &&
+           std::find(face.nodes.begin(), face.nodes.end(), slaves[slave].number) ==
+             face.nodes.end();
   }
 
 
@@ -143,88 +142,45 @@ namespace akmon
   }
 
 
-  // Point to point: the partner becomes the closest corner of the closest face.
-  void
-  SurfaceSearch::snap_to_closest_node(const ContactNodes::Field &x,
-                                      const Tensor<1, 3> &slave,
-                                      Partner &partner) const
-  {
-    const Segment corners = segment(x, masters[partner.face]);
-    unsigned int closest  = 0;
-    for (unsigned int k = 1; k < 4; ++k)
-      if ((slave - corners[k]).norm_square() < (slave - corners[closest]).norm_square())
-        closest = k;
-    auto &projection      = partner.projection;
-    projection.N          = {{0., 0., 0., 0.}};
-    projection.N[closest] = 1.;
-    projection.offset     = slave - corners[closest];
-    projection.feature    = Projection::Feature::vertex;
-    projection.where      = closest;
-  }
-
-
-  // Normal of the closest feature: of the face itself, or the mean of the faces that share the edge
-  // or vertex. A feature is on the rim where an edge has one face only.
-  Tensor<1, 3>
-  SurfaceSearch::feature_normal(const ContactNodes::Field &x,
-                                const Partner &partner,
-                                bool &on_rim) const
-  {
-    const auto &face       = masters[partner.face];
-    const auto &projection = partner.projection;
-    const unsigned int a   = face.nodes[projection.where];
-    const unsigned int b   = face.nodes[(projection.where + 1) % 4];
-    on_rim                 = false;
-    if (projection.feature == Projection::Feature::face)
-      return segment_normal(segment(x, face), projection.xi, projection.eta);
-
-    Tensor<1, 3> sum;
-    for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
-      {
-        const auto &neighbour = masters[faces_at[i]];
-        const auto corner     = std::find(neighbour.nodes.begin(), neighbour.nodes.end(), a) -
-                            neighbour.nodes.begin();
-        const unsigned int next = neighbour.nodes[(corner + 1) % 4],
-                           last = neighbour.nodes[(corner + 3) % 4];
-        if (projection.feature == Projection::Feature::edge)
-          {
-            if (next != b && last != b)
-              continue;
-            on_rim = faces_sharing(a, b) == 1;
-          }
-        else
-          on_rim = on_rim || faces_sharing(a, next) == 1 || faces_sharing(a, last) == 1;
-        const auto normal = area_vector(segment(x, neighbour));
-        sum += normal / normal.norm();
-      }
-    return sum / sum.norm();
-  }
-
-
-  // Normal and gap of a partner whose closest point is known; false where it is none: too far
-  // outside or inside, or beyond the rim.
+  // A slave beyond the rim that the step leads through the surface within the rim: its partner is
+  // where it would come through, which keeps it in front.
   bool
-  SurfaceSearch::complete(const ContactNodes::Field &x,
-                          const unsigned int slave,
-                          Partner &partner) const
+  SurfaceSearch::lands_within_rim(const ContactNodes::Field &x,
+                                  const ContactNodes::Field &next,
+                                  const double reach,
+                                  const unsigned int slave,
+                                  Partner &partner) const
   {
-    // A node further inside than this part of the cell behind the face belongs to another face's
-    // side.
-    constexpr double deepest_part = 0.5;
+    constexpr double in_front = -1e-6; // of the cell size, for rounding
 
-    const bool to_points = contact.gap_model == SurfaceContact::GapModel::point_to_point;
-    if (to_points)
-      snap_to_closest_node(x, x[slaves[slave].number], partner);
-    bool on_rim;
-    partner.normal = feature_normal(x, partner, on_rim);
-    partner.gap    = partner.normal * partner.projection.offset;
-    if (partner.gap > search_radius || partner.gap < -deepest_part * masters[partner.face].depth)
+    const auto here = x[slaves[slave].number], there = next[slaves[slave].number];
+    const auto &outward = outwards[slave];
+    double best         = std::numeric_limits<double>::max();
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+      {
+        const unsigned int f = candidates[i];
+        const auto &shape    = shapes[f];
+        const double longest = shape.radius + 2. * reach;
+        if ((here - shape.middle).norm_square() > longest * longest ||
+            shape.normal * outward > -opposed * shape.area * outward.norm())
+          continue;
+        const auto projection = project(there, segment(next, masters[f]));
+        if (projection.offset.norm() < best)
+          {
+            best               = projection.offset.norm();
+            partner.face       = f;
+            partner.projection = projection;
+          }
+      }
+    if (best == std::numeric_limits<double>::max() || !complete(next, slave, partner) ||
+        partner.gap > 0.)
       return false;
-    if (!on_rim)
-      return true;
-    const double overhang  = (partner.projection.offset - partner.gap * partner.normal).norm();
-    const double face_size = std::sqrt(area_vector(segment(x, masters[partner.face])).norm());
-    return overhang <= (to_points ? 0.5 : contact.rim_tolerance) * face_size;
+    auto &offset = partner.projection.offset;
+    offset       = here;
+    for (unsigned int k = 0; k < 4; ++k)
+      offset -= partner.projection.N[k] * x[masters[partner.face].nodes[k]];
+    partner.gap = partner.normal * offset;
+    return partner.gap >= in_front * slaves[slave].size;
   }
 
 
@@ -236,6 +192,11 @@ namespace akmon
     Partner partner;
     partner.face       = pair.face;
     partner.projection = project(point, segment(x, masters[pair.face]));
+    if (pair.shares_corner)
+      {
+        gap = face_normal(x, partner) * partner.projection.offset;
+        return true;
+      }
     if (partner.projection.feature != Projection::Feature::face)
       {
         // A step leads no further than to the neighbours.
@@ -243,14 +204,9 @@ namespace akmon
         for (const unsigned int node : masters[pair.face].nodes)
           for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
             {
-              const auto &face    = masters[faces_at[i]];
-              const auto corners  = segment(x, face);
-              const auto normal   = area_vector(corners);
-              const auto &outward = outwards[slave];
-              if (faces_at[i] == pair.face ||
-                  normal * outward > -opposed * normal.norm() * outward.norm() ||
-                  std::find(face.nodes.begin(), face.nodes.end(), slaves[slave].number) !=
-                    face.nodes.end())
+              const auto &face   = masters[faces_at[i]];
+              const auto corners = segment(x, face);
+              if (faces_at[i] == pair.face || !opposes(face, area_vector(corners), slave))
                 continue;
               const auto projection = project(point, corners);
               if (projection.offset.norm() < best)
@@ -291,7 +247,7 @@ namespace akmon
     const auto &offset  = partner.projection.offset;
     const double couple = has_friction ? offset.norm() :
                                          (offset - partner.gap * partner.normal).norm();
-    const bool levered  = turns_with_segments && couple > 1e-14 * pair.size &&
+    const bool levered  = couple > 1e-14 * pair.size &&
                          contact.gap_model == SurfaceContact::GapModel::point_to_segment;
     for (unsigned int k = 0; k < 4; ++k)
       if (levered || partner.projection.N[k] != 0.)
@@ -305,46 +261,10 @@ namespace akmon
   }
 
 
-  // Further faces of a corner that the slave may run into: turned against the first partner, with
-  // the slave in front of them.
-  void
-  SurfaceSearch::add_corner_pairs(const ContactNodes::Field &x,
-                                  const double reach,
-                                  std::vector<ContactPair> &pairs) const
-  {
-    constexpr double turned = 0.5; // cosine
-
-    const std::size_t first  = pairs.size() - 1;
-    const unsigned int slave = pairs[first].row;
-    const auto point         = x[slaves[slave].number];
-    const auto &outward      = outwards[slave];
-    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
-      {
-        Partner partner;
-        partner.face         = candidates[i];
-        const auto &shape    = shapes[partner.face];
-        const double longest = shape.radius + reach;
-        const auto is_turned = [&](const ContactPair &other) {
-          return shape.normal * other.normal < turned * shape.area;
-        };
-        if ((point - shape.middle).norm_square() > longest * longest ||
-            shape.normal * outward > -opposed * shape.area * outward.norm() ||
-            !std::all_of(pairs.begin() + first, pairs.end(), is_turned))
-          continue;
-        partner.projection = project(point, segment(x, masters[partner.face]));
-        if (partner.projection.feature == Projection::Feature::face &&
-            partner.projection.offset.norm() <= reach && complete(x, slave, partner))
-          {
-            pairs.push_back(make_pair(x, slave, partner));
-            pairs.back().slot = pairs.size() - 1 - first;
-          }
-      }
-  }
-
-
   void
   SurfaceSearch::find_pairs(const NodalVector &positions,
                             const ContactNodes::Field &x,
+                            const ContactNodes::Field &next,
                             const double reach,
                             const double travelled,
                             std::vector<ContactPair> &pairs)
@@ -370,10 +290,17 @@ namespace akmon
         if (outside && distance > 2. * reach)
           rest_until[s] = travelled + 0.5 * (distance - reach);
         if (!complete(x, s, partner))
-          continue;
+          {
+            if (distance <= reach && lands_within_rim(x, next, reach, s, partner))
+              pairs.push_back(make_pair(x, s, partner));
+            continue;
+          }
         pairs.push_back(make_pair(x, s, partner));
-        if (turns_with_segments && distance <= reach)
-          add_corner_pairs(x, reach, pairs);
+        if (coupled && distance <= reach)
+          {
+            add_valley_pairs(x, reach, partner, pairs);
+            add_corner_pairs(x, reach, pairs);
+          }
       }
   }
 } // namespace akmon

@@ -55,6 +55,22 @@ namespace akmon
     }
 
 
+    // Whether a node of a body is in the cell behind one of the body's own faces, or further back:
+    // a cell that is pressed flat must not be taken for a body in contact with itself.
+    bool
+    lies_behind(const Tensor<1, 3> &point, const Segment &corners, const double depth)
+    {
+      constexpr double part = 0.25, beside = 0.5;
+
+      const auto area     = area_vector(corners);
+      const auto normal   = area / area.norm();
+      const auto offset   = project(point, corners).offset;
+      const double behind = -(normal * offset);
+      return behind > part * depth &&
+             (offset + behind * normal).norm() <= beside * std::sqrt(area.norm());
+    }
+
+
     BoundingBox<3>
     box_around(const std::vector<Point<3>> &points, const double margin)
     {
@@ -76,7 +92,7 @@ namespace akmon
     , interface(interface)
     , number(number)
     , reversed(reversed)
-    , turns_with_segments(coupled)
+    , coupled(coupled)
     , has_friction(contact.friction.static_coefficient > 0.)
     , slave_faces(select_faces(discretization, contact, "Slave", contact.slaves))
     , master_faces(select_faces(discretization, contact, "Master", contact.masters))
@@ -250,7 +266,11 @@ namespace akmon
         const auto outward        = slave_normal(positions, s);
         tree.query(boost::geometry::index::intersects(Point<3>(x[slaves[s].number])),
                    boost::make_function_output_iterator([&](const auto &entry) {
-                     if (may_face(x, masters[entry.second], slaves[s].number, outward))
+                     const auto &face = masters[entry.second];
+                     if (face.body == discretization.body_of_node[slaves[s].node] &&
+                         lies_behind(x[slaves[s].number], segment(x, face), face.depth))
+                       return;
+                     if (may_face(x, face, slaves[s].number, outward))
                        candidates.push_back(entry.second);
                    }));
         std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());

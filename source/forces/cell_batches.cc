@@ -33,6 +33,8 @@ namespace akmon
     eroded.resize(std::size_t(n_batches) * n_lanes, 0.);
     has_eroded.resize(n_batches, 0);
     frequencies.resize(std::size_t(n_batches) * 2 * n_lanes, 0.);
+    watched.resize(n_batches, 0);
+    changed.resize(n_batches, 0);
     for (unsigned int batch = 0; batch < n_batches; ++batch)
       {
         const std::size_t begin = std::size_t(batch) * n_lanes;
@@ -62,6 +64,7 @@ namespace akmon
     frequencies[batch * 2 * n_lanes + n_lanes + lane] = 1.;
     owned[cell]                                       = 0.;
     eroded[cell]                                      = 1.;
-    has_eroded[batch]                                 = 1;
+    watched[batch] &= ~(1u << lane);
+    has_eroded[batch] = 1;
   }
 } // namespace akmon

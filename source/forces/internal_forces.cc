@@ -1,3 +1,4 @@
+#include <akmon/forces/cell_masses.h>
 #include <akmon/forces/internal_forces.h>
 #include <akmon/forces/one_point_cell.h>
 #include <akmon/time/critical_step.h>
@@ -58,24 +59,29 @@ namespace akmon
     : discretization(discretization)
   {
     for (unsigned int body = 0; body < discretization.get_bodies().size(); ++body)
-      {
-        body_batches.emplace_back(discretization, body);
-        CellBatches &batches = body_batches.back();
-        for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
-          {
-            calibrate(discretization.reference, batches, batch, Lanes(0.) < Lanes(1.));
-            const double *const omega_squared = &batches
-                                                   .frequencies[std::size_t(batch) * 2 * n_lanes];
-            for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
-              if (omega_squared[lane] > frequency_squared)
-                {
-                  frequency_squared         = omega_squared[lane];
-                  initial_frequency_squared = omega_squared[lane];
-                  initially_limiting_cell   = batches.first_cell + std::size_t(batch) * n_lanes +
-                                            lane;
-                }
-          }
-      }
+      body_batches.emplace_back(discretization, body);
+    calibrate_initially();
+  }
+
+
+  void
+  InternalForces::calibrate_initially()
+  {
+    frequency_squared = 0.;
+    for (auto &batches : body_batches)
+      for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
+        {
+          calibrate(discretization.reference, batches, batch, Lanes(0.) < Lanes(1.));
+          const double *const omega_squared = &batches
+                                                 .frequencies[std::size_t(batch) * 2 * n_lanes];
+          for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
+            if (omega_squared[lane] > frequency_squared)
+              {
+                frequency_squared         = omega_squared[lane];
+                initial_frequency_squared = omega_squared[lane];
+                initially_limiting_cell   = batches.index_of(batch, lane);
+              }
+        }
   }
 
 
@@ -85,10 +91,9 @@ namespace akmon
                             const unsigned int batch,
                             const Lanes::batch_bool_type &wanted)
   {
-    Lanes positions[8][3], reference[8][3], mass[8];
+    Lanes positions[8][3], mass[8];
     gather(x.begin(), batches.nodes(batch), positions);
-    gather(discretization.reference.begin(), batches.nodes(batch), reference);
-    lump_cell_mass(reference, discretization.material_of(batches.body).density, mass);
+    lump_batch_masses(discretization, batches, batch, mass);
     const Lanes
       omega_squared = largest_eigenvalue(positions,
                                          mass,
@@ -101,6 +106,7 @@ namespace akmon
     double *const growth    = frequency + n_lanes;
     select(wanted, omega_squared, Lanes::load_aligned(frequency)).store_aligned(frequency);
     select(wanted, Lanes(1.), Lanes::load_aligned(growth)).store_aligned(growth);
+    batches.clear_unused_frequencies(batch);
   }
 
 
@@ -111,6 +117,7 @@ namespace akmon
                          const double dt)
   {
     frequency_squared = 0.;
+    growth_of_bounds  = Growth();
     for (auto &batches : body_batches)
       std::visit(
         [&](const auto &law) {
@@ -148,7 +155,7 @@ namespace akmon
                                        material.density,
                                        dt);
     CellPassSums<Lanes> sums;
-    Lanes largest(0.);
+    Lanes largest(0.), growth_of_watched(1.), growth_elsewhere(1.);
     to_calibrate.clear();
     for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
       {
@@ -192,7 +199,9 @@ namespace akmon
         const auto recalibrate = bound_frequency(select(valid, cell.strain_squared, Lanes(0.)),
                                                  batches,
                                                  batch,
-                                                 largest);
+                                                 largest,
+                                                 growth_of_watched,
+                                                 growth_elsewhere);
         if (xsimd::any(recalibrate))
           to_calibrate.emplace_back(batch, recalibrate);
       }
@@ -208,7 +217,12 @@ namespace akmon
           largest = maximum(largest, select(wanted, omega_squared, Lanes(0.)));
         }
     for (unsigned int lane = 0; lane < n_lanes; ++lane)
-      frequency_squared = std::max(frequency_squared, largest.get(lane));
+      {
+        frequency_squared        = std::max(frequency_squared, largest.get(lane));
+        growth_of_bounds.watched = std::max(growth_of_bounds.watched, growth_of_watched.get(lane));
+        growth_of_bounds.elsewhere = std::max(growth_of_bounds.elsewhere,
+                                              growth_elsewhere.get(lane));
+      }
   }
 
 
@@ -218,17 +232,58 @@ namespace akmon
   InternalForces::bound_frequency(const Lanes &strain_squared,
                                   CellBatches &batches,
                                   const unsigned int batch,
-                                  Lanes &largest) const
+                                  Lanes &largest,
+                                  Lanes &growth_of_watched,
+                                  Lanes &growth_elsewhere) const
   {
     double *const frequency = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
-    const Lanes factor      = frequency_growth(strain_squared);
-    const Lanes growth      = Lanes::load_aligned(frequency + n_lanes) * factor * factor;
+    const Lanes factor = frequency_growth(strain_squared), in_step = factor * factor;
+    const Lanes growth = Lanes::load_aligned(frequency + n_lanes) * in_step;
     growth.store_aligned(frequency + n_lanes);
     const Lanes bound      = Lanes::load_aligned(frequency) * growth;
     const auto recalibrate = (growth > Lanes(growth_tolerance)) &&
                              (bound > Lanes(governing_part * governing_frequency_squared));
-    largest = maximum(largest, select(recalibrate, Lanes(0.), bound));
+    largest        = maximum(largest, select(recalibrate, Lanes(0.), bound));
+    auto elsewhere = bound > Lanes(watch_threshold);
+    if (batches.watched[batch])
+      {
+        const auto watched = batches.watched_lanes(batch);
+        growth_of_watched  = maximum(growth_of_watched, select(watched, in_step, Lanes(1.)));
+        elsewhere          = elsewhere && !watched;
+      }
+    growth_elsewhere = maximum(growth_elsewhere, select(elsewhere, growth, Lanes(1.)));
     return recalibrate;
+  }
+
+
+  double
+  InternalForces::largest_cell_bound() const
+  {
+    double largest = 0.;
+    for (const auto &batches : body_batches)
+      for (std::size_t cell = 0; cell < batches.n_cells; ++cell)
+        largest = std::max(largest, batches.frequency_bound(cell));
+    return largest;
+  }
+
+
+  void
+  InternalForces::tighten_bounds(const NodalVector &x, const double limit, const double factor)
+  {
+    for (auto &batches : body_batches)
+      for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
+        {
+          const double *const frequency = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
+          const Lanes growth            = Lanes::load_aligned(frequency + n_lanes);
+          const auto loose              = growth > Lanes(factor) &&
+                             Lanes::load_aligned(frequency) * growth > Lanes(limit);
+          if (!xsimd::any(loose))
+            continue;
+          calibrate(x, batches, batch, loose);
+          for (unsigned int lane = 0; lane < n_lanes; ++lane)
+            if (loose.get(lane))
+              batches.changed[batch] |= 1u << lane;
+        }
   }
 
 
@@ -287,7 +342,7 @@ namespace akmon
   {
     frequency_squared = 0.;
     for (auto &batches : body_batches)
-      for (std::size_t cell = 0; cell < batches.owned.size(); ++cell) // lanes that fill up, too
+      for (std::size_t cell = 0; cell < batches.n_cells; ++cell)
         {
           if (discretization.get_bodies()[batches.body].erodes &&
               batches.frequency_bound(cell) > frequency_squared_limit)
@@ -304,9 +359,7 @@ namespace akmon
                                const unsigned int lane,
                                const bool not_a_number)
   {
-    const std::size_t index = batches.first_cell + std::size_t(batch) * n_lanes +
-                              (lane < batches.n_used_lanes[batch] ? lane : 0);
-    const auto &cell        = discretization.cells[index];
+    const auto &cell        = discretization.cells[batches.index_of(batch, lane)];
     cell_fault.cell         = cell.id;
     cell_fault.body         = discretization.get_bodies()[cell.body].name;
     cell_fault.place        = dealii::Point<3>(at_node(x, cell.nodes[0]));

@@ -1,6 +1,7 @@
 #include <akmon/forces/internal_forces.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace akmon
 {
@@ -45,14 +46,26 @@ namespace akmon
     std::size_t
     row_width(const CellBatches &batches)
     {
-      return 3 + batches.n_points * batches.n_components +
+      return 5 + batches.n_points * batches.n_components +
              (batches.hourglass.empty() ? 0 : n_hourglass);
+    }
+
+
+    // A bit of a batch's lanes as a number.
+    template <typename Bits, typename Visitor>
+    void
+    visit_bit(Bits &bits, const unsigned int lane, const unsigned int i, const Visitor &visitor)
+    {
+      double value = bits >> lane & 1;
+      visitor(i, value);
+      if constexpr (!std::is_const_v<Bits>)
+        bits = (bits & ~(1u << lane)) | (value > 0. ? 1u << lane : 0u);
     }
 
 
     // Calls visitor(number in a row, value) for all that is known of a cell: its Gauss points one
     // after the other and its hourglass forces, behind omega^2, its growth and whether the cell was
-    // taken out.
+    // taken out, is watched and has changed.
     template <typename Batches, typename Visitor>
     void
     visit_cell(Batches &batches, const std::size_t cell, const Visitor &visitor)
@@ -64,13 +77,15 @@ namespace akmon
       visitor(0, frequencies[0]);
       visitor(1, frequencies[n_lanes]);
       visitor(2, batches.eroded[cell]);
+      visit_bit(batches.watched[batch], lane, 3, visitor);
+      visit_bit(batches.changed[batch], lane, 4, visitor);
       for (unsigned int i = 0; i < n; ++i)
-        visitor(3 + i, state[i * n_lanes]);
+        visitor(5 + i, state[i * n_lanes]);
       if (batches.hourglass.empty())
         return;
       auto *const forces = &batches.hourglass[batch * n_hourglass * n_lanes] + lane;
       for (unsigned int i = 0; i < n_hourglass; ++i)
-        visitor(3 + n + i, forces[i * n_lanes]);
+        visitor(5 + n + i, forces[i * n_lanes]);
     }
 
 
@@ -86,6 +101,8 @@ namespace akmon
         });
       for (std::size_t lane = batches.n_cells; lane < n; ++lane)
         visit_cell(batches, lane, [&](const unsigned int i, double &x) { x = first[i]; });
+      if (n > 0)
+        batches.clear_unused_frequencies(batches.n_batches() - 1);
     }
   } // namespace
 

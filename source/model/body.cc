@@ -58,6 +58,9 @@ namespace akmon
                                "0; 0; 0",
                                "Initial velocity as a function of position, added to Velocity and "
                                "Spin (length/time)");
+    prm.enter_subsection("Copies");
+    Copies::declare(prm);
+    prm.leave_subsection();
     MeshParameters::declare(prm);
   }
 
@@ -88,6 +91,9 @@ namespace akmon
       dealii::Point<3>(axis / axis.norm()),
       prm.get_double("Rotation angle") * dealii::numbers::PI / 180.);
 
+    prm.enter_subsection("Copies");
+    copies.parse(prm, section + "/Copies");
+    prm.leave_subsection();
     mesh.parse(prm, section);
   }
 } // namespace akmon

@@ -88,7 +88,7 @@ namespace akmon
           return m.name == body.material;
         });
         if (found == materials.end())
-          throw InputError("Bodies/" + body.name,
+          throw InputError("Bodies/" + body.section_name(),
                            "Material",
                            body.material,
                            "there is no material of this name in Materials/Names");
@@ -114,7 +114,7 @@ namespace akmon
 
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
-        BodyMesh mesh = make_body_mesh(bodies[b].mesh, "Bodies/" + bodies[b].name);
+        BodyMesh mesh = make_body_mesh(bodies[b].mesh, "Bodies/" + bodies[b].section_name());
         mesh.place(bodies[b].rotation, bodies[b].position);
         centres.push_back(centroid(mesh));
 
@@ -286,13 +286,15 @@ namespace akmon
     // depend, in their last digits, on which cells a rank has.
     NodalVector lumped = make_vector();
     std::string inverted;
-    for (const auto &cell : cells)
+    for (std::size_t c = 0; c < cells.size(); ++c)
       {
+        const auto &cell     = cells[c];
+        const double density = mass_factor_of(c) * material_of(cell.body).density;
         double X[8][3], cell_mass[8];
         for (unsigned int v = 0; v < 8; ++v)
           for (unsigned int d = 0; d < 3; ++d)
             X[v][d] = reference.local_element(3 * cell.nodes[v] + d);
-        lump_cell_mass(X, material_of(cell.body).density, cell_mass);
+        lump_cell_mass(X, density, cell_mass);
         for (unsigned int v = 0; v < 8; ++v)
           {
             if (!(cell_mass[v] > 0.))
@@ -309,6 +311,14 @@ namespace akmon
     mass.resize(n_nodes);
     for (unsigned int node = 0; node < n_nodes; ++node)
       mass[node] = lumped.local_element(3 * node);
+  }
+
+
+  void
+  Discretization::scale_masses(std::vector<double> factors)
+  {
+    mass_factors = std::move(factors);
+    lump_masses();
   }
 
 
@@ -333,7 +343,10 @@ namespace akmon
       {
         if (bodies[b].name == name)
           return b;
-        known += (b ? ", " : "") + bodies[b].name;
+        if (bodies[b].copy == 0)
+          known += (b ? ", " : "") + bodies[b].name;
+        if (b > 0 && bodies[b].copy > 0 && (b + 1 == bodies.size() || bodies[b + 1].copy == 0))
+          known += " ... " + bodies[b].name;
       }
     throw InputError(section, key, name, "there is no such body; allowed are " + known);
   }
@@ -351,20 +364,25 @@ namespace akmon
           every.insert(of_body.at("all").begin(), of_body.at("all").end());
         return every;
       }
-    const auto colon        = part.find(':');
-    const std::string name  = colon == std::string::npos ? "all" : part.substr(colon + 1);
-    const unsigned int body = body_index(section, key, part.substr(0, colon));
-    const auto found        = parts[body].find(name);
-    if (found == parts[body].end())
-      {
-        std::string known;
-        for (const auto &entry : parts[body])
-          known += (known.empty() ? "" : ", ") + entry.first;
-        throw InputError(section,
-                         key,
-                         part,
-                         "body '" + bodies[body].name + "' has the parts " + known);
-      }
-    return found->second;
+    const auto colon       = part.find(':');
+    const std::string name = colon == std::string::npos ? "all" : part.substr(colon + 1);
+    const std::string body = part.substr(0, colon);
+    std::set<types::boundary_id> ids;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      if (bodies[b].is_called(body))
+        {
+          const auto found = parts[b].find(name);
+          if (found == parts[b].end())
+            {
+              std::string known;
+              for (const auto &entry : parts[b])
+                known += (known.empty() ? "" : ", ") + entry.first;
+              throw InputError(section, key, part, "body '" + body + "' has the parts " + known);
+            }
+          ids.insert(found->second.begin(), found->second.end());
+        }
+    if (ids.empty())
+      body_index(section, key, body); // throws
+    return ids;
   }
 } // namespace akmon

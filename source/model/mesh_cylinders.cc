@@ -13,31 +13,8 @@ namespace akmon
 {
   namespace
   {
-    using Face = dealii::Triangulation<3>::face_iterator;
-
     const dealii::Patterns::Double non_negative(0);
     const dealii::Patterns::Integer one_or_more(1);
-
-
-    /// Whether all vertices of the face have exactly this coordinate.
-    bool
-    on_plane(const Face &face, const unsigned int direction, const double coordinate)
-    {
-      for (const unsigned int v : face->vertex_indices())
-        if (face->vertex(v)[direction] != coordinate)
-          return false;
-      return true;
-    }
-
-
-    template <typename Classify>
-    void
-    set_boundary_ids(dealii::Triangulation<3> &triangulation, const Classify &classify)
-    {
-      for (const auto &face : triangulation.active_face_iterators())
-        if (face->at_boundary())
-          face->set_boundary_id(classify(face));
-    }
 
 
     /// Coordinates of n + 1 slices from 0 to exactly `length`; cell lengths grow geometrically by
@@ -85,12 +62,7 @@ namespace akmon
                       one_or_more,
                       "Number of layers of cells from core to rim [-].");
     prm.declare_entry("Cells axial", "4", one_or_more, "Number of cells along the length [-].");
-    prm.declare_entry(
-      "Sector",
-      "full",
-      dealii::Patterns::Selection("full|half|quarter"),
-      "The sector that is meshed: half keeps x >= 0 with the plane of symmetry x-, quarter "
-      "keeps x >= 0 and y >= 0 with x- and y-.");
+    declare_sector(prm);
     prm.declare_entry(
       "Axial grading",
       "1",
@@ -109,13 +81,7 @@ namespace akmon
     cells_axial   = prm.get_integer("Cells axial");
     axial_grading = get_positive(prm, section, "Axial grading");
 
-    const std::string chosen = prm.get("Sector");
-    sector = chosen == "full" ? Sector::full : chosen == "half" ? Sector::half : Sector::quarter;
-    if (sector != Sector::full && cells_across % 2 != 0)
-      throw InputError(section,
-                       "Cells across",
-                       prm.get("Cells across"),
-                       "allowed are even numbers for Sector = " + chosen);
+    sector = get_sector(prm, section, cells_across);
   }
 
 
@@ -124,7 +90,7 @@ namespace akmon
   {
     dealii::Triangulation<2> disc;
     OGrid<2>(radius, cells_across, cells_radial).create(disc, [&](const dealii::Point<2> &x) {
-      return (sector == Sector::full || x[0] > 0) && (sector != Sector::quarter || x[1] > 0);
+      return is_in(sector, x);
     });
     dealii::Triangulation<3> triangulation;
     dealii::GridGenerator::extrude_triangulation(disc,
@@ -137,7 +103,7 @@ namespace akmon
     if (sector == Sector::quarter)
       names.push_back("y-");
     // Coordinates in these planes are exact (see OGrid and slices).
-    set_boundary_ids(triangulation, [&](const Face &face) {
+    set_boundary_ids(triangulation, [&](const MeshFace &face) {
       return on_plane(face, 2, 0)      ? 1 :
              on_plane(face, 2, length) ? 2 :
              on_plane(face, 0, 0)      ? 3 :
@@ -220,7 +186,7 @@ namespace akmon
                                                  triangulation);
 
     const double middle = 0.5 * (inner_radius + outer_radius);
-    set_boundary_ids(triangulation, [&](const Face &face) {
+    set_boundary_ids(triangulation, [&](const MeshFace &face) {
       return on_plane(face, 2, 0)                                        ? 2 :
              on_plane(face, 2, length)                                   ? 3 :
              std::hypot(face->vertex(0)[0], face->vertex(0)[1]) < middle ? 0 :

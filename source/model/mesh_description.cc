@@ -76,6 +76,26 @@ namespace akmon
   } // namespace
 
 
+  bool
+  on_plane(const MeshFace &face, const unsigned int direction, const double coordinate)
+  {
+    for (const unsigned int v : face->vertex_indices())
+      if (face->vertex(v)[direction] != coordinate)
+        return false;
+    return true;
+  }
+
+
+  void
+  set_boundary_ids(dealii::Triangulation<3> &triangulation,
+                   const std::function<dealii::types::boundary_id(const MeshFace &)> &classify)
+  {
+    for (const auto &face : triangulation.active_face_iterators())
+      if (face->at_boundary())
+        face->set_boundary_id(classify(face));
+  }
+
+
   BodyMesh
   describe_mesh(const dealii::Triangulation<3> &triangulation)
   {

@@ -1,6 +1,5 @@
 #include <akmon/model/mesh_description.h>
 #include <akmon/model/mesh_shapes.h>
-#include <akmon/model/o_grid.h>
 #include <akmon/parameters.h>
 
 #include <deal.II/base/patterns.h>
@@ -16,6 +15,36 @@ namespace akmon
     if (!(value > 0))
       throw InputError(section, key, prm.get(key), "allowed are numbers above 0");
     return value;
+  }
+
+
+  void
+  declare_sector(dealii::ParameterHandler &prm)
+  {
+    prm.declare_entry(
+      "Sector",
+      "full",
+      dealii::Patterns::Selection("full|half|quarter"),
+      "The sector that is meshed: half keeps x >= 0 with the plane of symmetry x-, quarter "
+      "keeps x >= 0 and y >= 0 with x- and y-.");
+  }
+
+
+  Sector
+  get_sector(dealii::ParameterHandler &prm,
+             const std::string &section,
+             const unsigned int cells_across)
+  {
+    const std::string chosen = prm.get("Sector");
+    const Sector sector      = chosen == "full" ? Sector::full :
+                               chosen == "half" ? Sector::half :
+                                                  Sector::quarter;
+    if (sector != Sector::full && cells_across % 2 != 0)
+      throw InputError(section,
+                       "Cells across",
+                       prm.get("Cells across"),
+                       "allowed are even numbers for Sector = " + chosen);
+    return sector;
   }
 
 
@@ -61,47 +90,5 @@ namespace akmon
                                                       dealii::Point<3>(0.5 * size),
                                                       true);
     return describe_mesh(triangulation, {"x-", "x+", "y-", "y+", "z-", "z+"});
-  }
-
-
-  void
-  SphereShape::declare(dealii::ParameterHandler &prm)
-  {
-    prm.declare_entry("Radius",
-                      "1",
-                      dealii::Patterns::Double(0),
-                      "Radius R of the sphere about the origin [length].");
-    prm.declare_entry("Cells across",
-                      "4",
-                      dealii::Patterns::Integer(1),
-                      "Number of cells along an edge of the core cube [-].");
-    prm.declare_entry("Cells radial",
-                      "2",
-                      dealii::Patterns::Integer(1),
-                      "Number of layers of cells from core to surface [-].");
-  }
-
-
-  void
-  SphereShape::parse(dealii::ParameterHandler &prm, const std::string &section)
-  {
-    radius       = get_positive(prm, section, "Radius");
-    cells_across = prm.get_integer("Cells across");
-    cells_radial = prm.get_integer("Cells radial");
-  }
-
-
-  BodyMesh
-  SphereShape::make(const std::string &) const
-  {
-    dealii::Triangulation<3> triangulation;
-    OGrid<3>(radius, cells_across, cells_radial)
-      .create(triangulation, [](const dealii::Point<3> &) { return true; });
-    BodyMesh mesh = describe_mesh(triangulation, {"surface"});
-    mesh.curved.emplace(0,
-                        CurvedSurface{CurvedSurface::Kind::sphere,
-                                      dealii::Point<3>(),
-                                      dealii::Tensor<1, 3>()});
-    return mesh;
   }
 } // namespace akmon

@@ -39,6 +39,6 @@ namespace akmon
       most,
       needed / 1e9,
       memory / 1e9);
-    throw InputError("[Bodies/" + largest->name + "]: " + text);
+    throw InputError("[Bodies/" + largest->section_name() + "]: " + text);
   }
 } // namespace akmon

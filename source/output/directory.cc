@@ -38,7 +38,8 @@ namespace akmon
     bool
     is_own_result(const std::string &name)
     {
-      for (const std::string own : {"fields.pvd", "history.csv", "summary.json", "parameters.prm"})
+      for (const std::string own :
+           {"fields.pvd", "history.csv", "contact.csv", "summary.json", "parameters.prm"})
         if (name == own || name == own + temporary_suffix)
           return true;
       return (starts_with(name, "fields_") && ends_with(name, ".vtu")) ||

@@ -101,10 +101,10 @@ namespace akmon
     const auto &dof_handler   = discretization.dof_handler;
     NodalVector displacement  = state.x;
     displacement -= discretization.reference;
-    const auto areas     = contact_areas(state);
-    NodalVector velocity = nodal_velocity(), scalars = contact_scalars(areas),
-                traction = contact_traction(areas);
-    for (NodalVector *const vector : {&displacement, &velocity, &scalars, &traction})
+    NodalVector velocity = nodal_velocity(), scalars = discretization.make_vector(),
+                traction = discretization.make_vector(), friction = discretization.make_vector();
+    fill_contact_fields(state, scalars, traction, friction);
+    for (NodalVector *const vector : {&displacement, &velocity, &scalars, &traction, &friction})
       vector->update_ghost_values();
 
     const unsigned int n = triangulation.n_active_cells();
@@ -143,6 +143,10 @@ namespace akmon
     data_out.add_data_vector(dof_handler,
                              traction,
                              std::vector<std::string>(3, "contact_traction"),
+                             as_vector);
+    data_out.add_data_vector(dof_handler,
+                             friction,
+                             std::vector<std::string>(3, "contact_friction"),
                              as_vector);
     data_out.add_data_vector(dof_handler,
                              scalars,
@@ -217,29 +221,37 @@ namespace akmon
   }
 
 
-  // Quarter of the current areas of the contact faces around each owned node.
-  std::vector<double>
-  Fields::contact_areas(const NodalState &state) const
+  // Forces of all interfaces at an owned node over its share of the area that faces the normal
+  // force.
+  void
+  Fields::fill_contact_fields(const NodalState &state,
+                              NodalVector &scalars,
+                              NodalVector &traction,
+                              NodalVector &friction) const
   {
-    std::vector<double> areas(discretization.n_nodes, 0.);
-    for (const auto &face : contact.contact_faces())
+    const auto &areas  = contact.nodal_areas();
+    const auto &forces = contact.nodal_forces();
+    for (auto first = forces.begin(); first != forces.end();)
       {
-        Segment corners;
-        for (unsigned int k = 0; k < 4; ++k)
-          corners[k] = at_node(state.x, face.nodes[k]);
-        for (const unsigned int node : face.nodes)
-          areas[node] += 0.25 * area_vector(corners).norm();
+        const unsigned int node = first->node;
+        Tensor<1, 3> normal, tangential;
+        bool sticks = false;
+        for (; first != forces.end() && first->node == node; ++first)
+          {
+            normal += first->normal;
+            tangential += first->tangential;
+            sticks = sticks || first->sticks;
+          }
+        const double size = normal.norm(), pressure = areas.pressure(state.x, node, normal);
+        scalars.local_element(3 * node)     = pressure;
+        scalars.local_element(3 * node + 2) = sticks ? 2. : 1.;
+        for (unsigned int d = 0; pressure > 0. && d < 3; ++d)
+          {
+            traction.local_element(3 * node + d) = (normal[d] + tangential[d]) * (pressure / size);
+            friction.local_element(3 * node + d) = tangential[d] * (pressure / size);
+          }
       }
-    return areas;
-  }
 
-
-  NodalVector
-  Fields::contact_scalars(const std::vector<double> &areas) const
-  {
-    NodalVector scalars = discretization.make_vector();
-    for (const auto &force : contact.nodal_forces())
-      scalars.local_element(3 * force.node) = force.normal.norm() / areas[force.node];
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
       scalars.local_element(3 * node + 1) = std::numeric_limits<double>::quiet_NaN();
     for (const auto &pair : contact.get_pairs())
@@ -249,21 +261,8 @@ namespace akmon
         double &gap = scalars.local_element(3 * pair.slave + 1);
         if (!(gap < pair.gap))
           gap = pair.gap;
-        if (pair.normal_force > 0.)
+        if (pair.normal_force > 0.) // a slave's own pair counts before those it is a master of
           scalars.local_element(3 * pair.slave + 2) = pair.sticks ? 2. : 1.;
       }
-    return scalars;
-  }
-
-
-  NodalVector
-  Fields::contact_traction(const std::vector<double> &areas) const
-  {
-    NodalVector traction = discretization.make_vector();
-    for (const auto &force : contact.nodal_forces())
-      for (unsigned int d = 0; d < 3; ++d)
-        traction.local_element(3 * force.node + d) = (force.normal[d] + force.tangential[d]) /
-                                                     areas[force.node];
-    return traction;
   }
 } // namespace akmon

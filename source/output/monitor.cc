@@ -24,6 +24,7 @@ namespace akmon
     , field_tick(parameters.output.fields)
     , history_tick(parameters.output.history)
     , history(parameters.output_directory + "/history.csv", watched.discretization.communicator())
+    , interfaces(parameters.output_directory, watched.contact, watched.state)
     , fields(parameters.output_directory,
              watched.discretization,
              watched.internal_forces,
@@ -74,6 +75,11 @@ namespace akmon
     level_written = false;
     account_work();
     report = watched.contact.report(watched.state);
+    solver_record.iterations += report.iterations;
+    solver_record.steps += report.iterations > 0;
+    solver_record.unconverged += !report.converged;
+    solver_record.residual = std::max(solver_record.residual, report.residual);
+    interfaces.observe(report);
     if (report.max_penetration_relative > deepest.size)
       deepest = {report.max_penetration_relative,
                  report.place,
@@ -124,8 +130,6 @@ namespace akmon
           const RigidBody::Work work = (body.*of_body)();
           sum.external += work.external;
           sum.damping += work.damping;
-          sum.normal += work.normal;
-          sum.tangential += work.tangential;
         }
     return sum;
   }
@@ -149,18 +153,6 @@ namespace akmon
     });
     add(damping, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
       return rigid.damping - watched.integrator.damping_work(increment);
-    });
-    // What penalty springs take they store.
-    const bool springs = parameters.contact_solver.type == ContactSolver::Type::penalty;
-    add(impact, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
-      const auto work = watched.contact.work(increment);
-      return -work.holding - (springs ? 0. : work.normal + rigid.normal);
-    });
-    add(bond, [&](const NodalVector &increment, const RigidBody::Work &) {
-      return -watched.contact.work(increment).failing;
-    });
-    add(friction, [&](const NodalVector &increment, const RigidBody::Work &rigid) {
-      return -watched.contact.work(increment).tangential - rigid.tangential;
     });
   }
 
@@ -186,17 +178,16 @@ namespace akmon
   void
   Monitor::sum_energies()
   {
-    const auto stored                  = watched.contact.stored_energy();
     const std::array<double, 10> local = {{watched.integrator.kinetic_energy(),
                                            watched.internal_forces.internal_work(),
                                            watched.internal_forces.plastic_work(),
                                            damping.value(),
-                                           friction.value() - stored.tangential,
-                                           impact.value(),
+                                           interfaces.friction_dissipation(),
+                                           interfaces.impact_dissipation(),
                                            watched.internal_forces.hourglass_work(),
                                            external.value(),
-                                           stored.normal + stored.tangential,
-                                           bond.value()}};
+                                           interfaces.contact_energy(),
+                                           interfaces.bond_energy()}};
     std::array<double, 10> all;
     Utilities::MPI::sum(ArrayView<const double>(local.data(), local.size()),
                         watched.discretization.communicator(),
@@ -287,9 +278,9 @@ namespace akmon
     penetration = penetration_relative = 0.;
 
     std::vector<double> sums = {double(report.active_pairs), double(report.sticking_pairs)};
-    for (const auto &force : report.forces)
+    for (const auto &interface : report.interfaces)
       for (unsigned int d = 0; d < 3; ++d)
-        sums.push_back(force[d]);
+        sums.push_back(interface.force()[d]);
     Utilities::MPI::sum(sums, communicator, sums);
     sums.insert(sums.begin() + 2, double(report.iterations));
     append(sums);
@@ -299,5 +290,6 @@ namespace akmon
           append({value[0], value[1], value[2]});
     append(probes.values(watched.state));
     history.write_row(row);
+    interfaces.write_row(report);
   }
 } // namespace akmon

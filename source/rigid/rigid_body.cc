@@ -219,15 +219,13 @@ namespace akmon
   RigidBody::work(const RigidIncrement &increment) const
   {
     Work result;
-    result.normal     = normal_load.work(increment);
-    result.tangential = tangential_load.work(increment);
     if (free)
       {
         result.external = load.work(increment);
         result.damping  = -free->damping_work(increment);
       }
     else
-      result.external = -result.normal - result.tangential;
+      result.external = -normal_load.work(increment) - tangential_load.work(increment);
     return result;
   }
 } // namespace akmon

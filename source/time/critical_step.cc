@@ -1,48 +1,10 @@
+#include <akmon/forces/elastic_stiffness.h>
 #include <akmon/time/critical_step.h>
 
 namespace akmon
 {
   namespace
   {
-    constexpr unsigned int n_points = CellBatches::n_gauss_points;
-
-    // f = K u for linear elasticity on the configuration x, with the cell integration of the time
-    // loop.
-    template <typename N>
-    void
-    apply_stiffness(const TrilinearGradients<N> &positions,
-                    const Elasticity &elasticity,
-                    const CellIntegration integration,
-                    const N (&u)[8][3],
-                    N (&f)[8][3])
-    {
-      const auto gradients = TrilinearGradients<N>::evaluate(u);
-      Symmetric3<N> strain[n_points];
-      N volume(0.), dilatation(0.);
-      for (unsigned int q = 0; q < n_points; ++q)
-        {
-          const Matrix3<N> J         = positions.at(q);
-          const Matrix3<N> cofactors = cofactor(J);
-          const N j                  = determinant(J, cofactors);
-          strain[q] = symmetric_part(times_inverse(gradients.at(q), cofactors, N(1. / j)));
-          volume += j;
-          dilatation += j * trace(strain[q]);
-        }
-      TrilinearGradients<N> weights;
-      weights.clear();
-      const N mean = dilatation / volume;
-      for (unsigned int q = 0; q < n_points; ++q)
-        {
-          if (integration != CellIntegration::full)
-            strain[q] = add_to_diagonal(strain[q], N((mean - trace(strain[q])) * (1. / 3.)));
-          weights.add(q, elasticity.stress(strain[q]) * cofactor(positions.at(q)));
-        }
-      // With the mean dilatation in the strain, the pressure part 3 K mean I is constant over the
-      // cell and its weights integrate to the mean divergence: no further averaging is needed.
-      weights.integrate(f);
-    }
-
-
     // u . M w
     template <typename N>
     N
@@ -138,7 +100,7 @@ namespace akmon
     N b(0.);
     for (unsigned int j = 0; j < n_steps; ++j)
       {
-        apply_stiffness(positions, elasticity, integration, v, w);
+        apply_elastic_stiffness(positions, elasticity, integration, v, w);
         for (unsigned int node = 0; node < 8; ++node)
           for (unsigned int c = 0; c < 3; ++c)
             w[node][c] = w[node][c] / mass[node] - b * v_before[node][c];

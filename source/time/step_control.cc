@@ -2,6 +2,7 @@
 #include <akmon/time/step_control.h>
 
 #include <cmath>
+#include <limits>
 
 namespace akmon
 {
@@ -25,6 +26,13 @@ namespace akmon
       dealii::Patterns::Anything(),
       "Time step dt (time), or 'automatic': the safety factor times the critical step "
       "2/omega_max, estimated anew every step");
+    prm
+      .declare_entry("Critical step",
+                     "cells",
+                     dealii::Patterns::Selection("cells|assembled"),
+                     "Whose largest frequency omega_max bounds the step: that of the cells taken "
+                     "alone, or of the assembled system, which is smaller but has to be estimated: "
+                     "worth it in runs of thousands of steps");
     prm.declare_entry("Safety factor",
                       "0.9",
                       dealii::Patterns::Double(0., 1.),
@@ -34,6 +42,11 @@ namespace akmon
                       dealii::Patterns::Double(0., 1.),
                       "The run stops, or cells are eroded, when the critical step falls below this "
                       "part of the first one (dimensionless)");
+    prm.declare_entry("Mass scaling step",
+                      "0",
+                      dealii::Patterns::Double(0.),
+                      "Cells that do not allow this step in the initial configuration are made "
+                      "heavier until they do (time); 0: none are");
     prm.declare_entry("Allow unstable step",
                       "false",
                       dealii::Patterns::Bool(),
@@ -47,6 +60,8 @@ namespace akmon
     end           = prm.get_double("End");
     safety_factor = prm.get_double("Safety factor");
     smallest      = prm.get_double("Smallest step");
+    scaled_step   = prm.get_double("Mass scaling step");
+    assembled     = prm.get("Critical step") == "assembled";
     unstable      = prm.get_bool("Allow unstable step");
     if (!(end > 0.))
       throw InputError("Time", "End", prm.get("End"), "allowed are positive numbers");
@@ -88,6 +103,16 @@ namespace akmon
     if (rest <= rounding * step || rest >= sharing * step)
       return step;
     return rest / std::ceil(rest / step * (1. - rounding));
+  }
+
+
+  double
+  StepControl::mass_scaling_limit() const
+  {
+    if (scaled_step == 0.)
+      return std::numeric_limits<double>::infinity();
+    const double omega = (automatic() ? safety_factor : 1.) * 2. / scaled_step;
+    return omega * omega;
   }
 
 

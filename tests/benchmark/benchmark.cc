@@ -1,7 +1,7 @@
 // Throughput per core: the cell pass (stress update and internal forces) against what the machine
 // can do at best, and whole steps of the copper Taylor bar. Every figure is processor time, the
-// best of several repetitions where there are any. Usage: akmon_benchmark [cell-pass] [whole-step];
-// both if none is given. Under mpirun rank 0 reports.
+// best of several repetitions where there are any. Usage: akmon_benchmark [cell-pass] [whole-step]
+// [memory]; all if none is given. Under mpirun rank 0 reports.
 
 #include "benchmark.h"
 
@@ -25,11 +25,12 @@ main(int argc, char **argv)
     return parts.empty() || std::find(parts.begin(), parts.end(), part) != parts.end();
   };
   for (const auto &part : parts)
-    if (part != "cell-pass" && part != "whole-step")
+    if (part != "cell-pass" && part != "whole-step" && part != "memory")
       {
-        std::fprintf(stderr,
-                     "akmon_benchmark: unknown part '%s'; allowed are cell-pass, whole-step\n",
-                     part.c_str());
+        std::fprintf(
+          stderr,
+          "akmon_benchmark: unknown part '%s'; allowed are cell-pass, whole-step, memory\n",
+          part.c_str());
         return 1;
       }
 
@@ -45,5 +46,7 @@ main(int argc, char **argv)
     measure_cell_pass(machine);
   if (wanted("whole-step"))
     measure_whole_step();
+  if (wanted("memory"))
+    measure_memory();
   return 0;
 }

@@ -34,7 +34,6 @@ namespace akmon::benchmark
                                          {"Output directory=" + directory,
                                                "Output/Fields interval=0",
                                                "Output/History steps=0",
-                                               "Probes/Names=",
                                                "Time/End=" + std::to_string(1e6 * end) + "e-6",
                                                cylinder + "across=" + std::to_string(mesh.across),
                                                cylinder + "radial=" + std::to_string(mesh.radial),

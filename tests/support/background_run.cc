@@ -1,6 +1,7 @@
 #include "support/background_run.h"
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fcntl.h>
 #include <filesystem>
@@ -22,6 +23,7 @@ namespace akmon::test
     // The child: nothing but system calls and exec.
     for (const char *const name : {"OMPI_MCA_ess", "PMIX_RANK", "PMIX_NAMESPACE"})
       unsetenv(name);
+    signal(SIGXFSZ, SIG_IGN); // limit_file_size() makes writes fail, not the program end
     const int descriptor = open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     dup2(descriptor, STDOUT_FILENO);
     dup2(descriptor, STDERR_FILENO);
@@ -48,6 +50,15 @@ namespace akmon::test
   BackgroundRun::send(const int signal) const
   {
     kill(process, signal);
+  }
+
+
+  void
+  BackgroundRun::limit_file_size(const unsigned long n_bytes) const
+  {
+    const rlimit limit{n_bytes, n_bytes};
+    if (prlimit(process, RLIMIT_FSIZE, &limit, nullptr) != 0)
+      throw std::runtime_error("cannot limit the file size");
   }
 
 

@@ -21,6 +21,10 @@ namespace akmon::test
     void
     send(const int signal) const;
 
+    /// From now on its files do not grow beyond a size; writing further fails as on a full disk.
+    void
+    limit_file_size(const unsigned long n_bytes) const;
+
     /// Wait until a file is there; false after @p seconds or if the program ended before.
     bool
     wait_for(const std::string &path, const double seconds) const;

@@ -69,6 +69,7 @@ namespace akmon::test
     EXPECT_EQ(summary_value(a, "state_hash"), summary_value(b, "state_hash"));
     EXPECT_EQ(summary_value(a, "steps"), summary_value(b, "steps"));
     EXPECT_EQ(file_content(a + "/history.csv"), file_content(b + "/history.csv"));
+    EXPECT_EQ(file_content(a + "/contact.csv"), file_content(b + "/contact.csv"));
     EXPECT_EQ(series_in(a), series_in(b));
     EXPECT_EQ(field_files_in(a), field_files_in(b));
   }

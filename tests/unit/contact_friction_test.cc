@@ -155,7 +155,7 @@ namespace
         EXPECT_LE((step - Vector({initial_gap, 0.04 - 0.25 * 0.06, 0.})).norm(), 1e-15);
       }
     const auto report = contact.report(state);
-    EXPECT_LE((report.forces[0] - 4. * Vector({-t_n, -0.25 * t_n, 0.})).norm(), 1e-11);
+    EXPECT_LE((report.interfaces[0].force() - 4. * Vector({-t_n, -0.25 * t_n, 0.})).norm(), 1e-11);
   }
 
 

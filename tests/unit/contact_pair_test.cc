@@ -91,7 +91,7 @@ namespace
                   1e-15);
     const auto report = cubes.contact.report(cubes.state);
     EXPECT_EQ(report.active_pairs, 1u);
-    EXPECT_NEAR(report.forces[0][0], -pair.normal_force, 1e-15);
+    EXPECT_NEAR(report.interfaces[0].force()[0], -pair.normal_force, 1e-15);
     EXPECT_EQ(report.max_penetration, 0.);
     // Enforcement at the position reached: the next gap is nothing.
     cubes.step();
@@ -197,7 +197,7 @@ namespace
                    Vector(),
                    contact_law(to_segment, 0.2));
     const auto &pair  = cubes.contact.get_pairs()[0];
-    const auto work   = cubes.contact.work(cubes.state.dx_next);
+    const auto work   = cubes.contact.works(cubes.state.dx_next, &RigidBody::increment_after)[0];
     const Vector slip = cubes.relative(pair, cubes.state.dx_next);
     EXPECT_NEAR(work.normal, pair.normal_force * (pair.normal * slip), 1e-14);
     EXPECT_NEAR(work.tangential, pair.tangential_force * slip, 1e-14);

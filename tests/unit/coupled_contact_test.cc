@@ -97,7 +97,8 @@ namespace
           {
             boxes.check(mu);
             // The friction of all pairs does not feed energy: t . slip <= 0.
-            const auto work = boxes.contact.work(boxes.state.dx_next);
+            const auto work = boxes.contact.works(boxes.state.dx_next,
+                                                  &RigidBody::increment_after)[0];
             EXPECT_LE(work.tangential, 1e-12);
             Vector normal, tangential;
             for (const auto &force : boxes.contact.nodal_forces())

@@ -215,7 +215,7 @@ namespace
     cylinder.cells_across  = 2;
     cylinder.cells_radial  = 2;
     cylinder.cells_axial   = 3;
-    cylinder.sector        = CylinderShape::Sector::full;
+    cylinder.sector        = Sector::full;
     cylinder.axial_grading = 2.;
     SphereShape sphere;
     sphere.radius       = 1.;

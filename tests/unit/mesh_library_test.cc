@@ -221,6 +221,76 @@ namespace
   }
 
 
+  std::string
+  sphere(const std::string &keys)
+  {
+    return "set Shape = sphere\nsubsection Sphere\nset Cells across = 8\nset Cells radial = 4\n" +
+           keys + "end\n";
+  }
+
+
+  TEST(MeshLibrary, SphereSectors)
+  {
+    const double volume  = quality(make(sphere(""))).volume,
+                 surface = area(make(sphere("")), "surface");
+    for (const std::string pole_size : {"1", "0.2"})
+      {
+        const auto whole = make(sphere("set Pole size = " + pole_size + "\n"));
+        for (const std::string sector : {"half", "quarter"})
+          {
+            const auto mesh = make(
+              sphere("set Sector = " + sector + "\nset Pole size = " + pole_size + "\n"));
+            const double part = sector == "half" ? 2. : 4.;
+            expect_complete(mesh);
+            EXPECT_EQ(mesh.cells.size(), whole.cells.size() / part);
+            EXPECT_NEAR(quality(mesh).volume, quality(whole).volume / part, 1e-12);
+            // The area of a warped quadrilateral depends on the corner it is measured from.
+            EXPECT_NEAR(area(mesh, "surface"), area(whole, "surface") / part, 1e-3);
+            for (unsigned int d = 0; d < (sector == "half" ? 1 : 2); ++d)
+              for (const auto *face : faces_of(mesh, d == 0 ? "x-" : "y-"))
+                for (const unsigned int v : face->vertices)
+                  EXPECT_EQ(mesh.vertices[v][d], 0.);
+          }
+      }
+    EXPECT_NEAR(volume, 4 * PI / 3, 0.1);
+    EXPECT_NEAR(surface, 4 * PI, 0.2);
+    expect_contains(error_of("set Shape = sphere\nsubsection Sphere\nset Cells across = 3\n"
+                             "set Sector = half\nend\n"),
+                    "[Bodies/b/Sphere] Cells across = 3: ");
+  }
+
+
+  TEST(MeshLibrary, SphereGradedTowardsThePole)
+  {
+    // Edges from the pole, and the nodes on the surface.
+    const auto edge_at_pole = [](const BodyMesh &mesh) {
+      double least = 1e300;
+      for (const auto *face : faces_of(mesh, "surface"))
+        for (const unsigned int v : face->vertices)
+          {
+            const auto x = mesh.vertices[v];
+            EXPECT_NEAR(x.norm(), 1., 1e-15);
+            const double distance = (x - Point<3>(0, 0, -1)).norm();
+            if (distance > 1e-12)
+              least = std::min(least, distance);
+          }
+      return least;
+    };
+    const auto even      = make(sphere(""));
+    const double of_even = edge_at_pole(even);
+    for (const double g : {0.5, 0.2, 0.1, 2.})
+      {
+        const auto mesh = make(sphere("set Pole size = " + std::to_string(g) + "\n"));
+        EXPECT_NEAR(edge_at_pole(mesh), g * of_even, 0.05 * g * of_even) << g;
+        // The map keeps angles: cells stay good but for those as large as the ball.
+        EXPECT_GT(quality(mesh).jacobian_min, 0.) << g;
+        EXPECT_GT(quality(mesh).smallest, 0.3) << g;
+      }
+    expect_contains(error_of("set Shape = sphere\nsubsection Sphere\nset Pole size = 0\nend\n"),
+                    "[Bodies/b/Sphere] Pole size = 0: ");
+  }
+
+
   TEST(MeshLibrary, NonPositiveNumbersAreRefused)
   {
     expect_contains(error_of("subsection Box\nset Size = 1, 0, 1\nend\n"),

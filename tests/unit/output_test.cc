@@ -223,6 +223,7 @@ namespace
     const std::vector<std::string> own    = {"fields.pvd",
                                              "fields_0001.vtu",
                                              "history.csv",
+                                             "contact.csv",
                                              "summary.json",
                                              "parameters.prm",
                                              "checkpoint.info",

@@ -58,7 +58,10 @@ namespace akmon
 
   private:
     void
-    reserve_space(const hid_t dataset, const std::uint64_t n_bytes);
+    reserve_space(const std::uint64_t n_bytes);
+
+    std::uint64_t
+    size_so_far() const;
 
     const std::string path, temporary;
     const MPI_Comm comm;

@@ -47,6 +47,10 @@ namespace akmon
     void
     add_nodes(std::vector<unsigned int> &numbers) const;
 
+    /// Take up the masses of the nodes, which may have been scaled (collective).
+    void
+    update_mobilities();
+
     /// Tell the contact numbers of owned nodes.
     void
     set_numbers(const ContactNodes &nodes);
@@ -69,6 +73,7 @@ namespace akmon
     struct NodalForce
     {
       unsigned int node; ///< local number
+      unsigned int interface;
       dealii::Tensor<1, 3> holding, failing;
 
       dealii::Tensor<1, 3>
@@ -93,9 +98,15 @@ namespace akmon
       return forces;
     }
 
-    /// On the slaves of an interface, at the last level; force.
-    dealii::Tensor<1, 3>
-    force_of(const unsigned int interface) const;
+    /// On the slaves of an interface, at the last level.
+    struct Load
+    {
+      dealii::Tensor<1, 3> normal, tangential; ///< force
+      dealii::Tensor<1, 3> moment;             ///< about the origin; force length
+    };
+
+    Load
+    load_on(const unsigned int interface) const;
 
     /// Share of the points that are broken, and area and energy of all points of an interface.
     struct Report
@@ -191,6 +202,8 @@ namespace akmon
     holding_rows() const;
     const System &
     system_now();
+    void
+    collect_forces();
 
     struct Own
     {
@@ -201,6 +214,7 @@ namespace akmon
 
     const Discretization &discretization;
     const std::vector<SurfaceContact> &contacts;
+    const EssentialConditions &conditions;
     std::vector<Point> points;                          ///< by interface and slave
     std::vector<dealii::types::global_dof_index> nodes; ///< of all tied surfaces, sorted
     std::vector<dealii::SymmetricTensor<2, 3>> W;       ///< by node; 1/mass

@@ -5,6 +5,7 @@
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/mobility.h>
+#include <akmon/contact/nodal_areas.h>
 #include <akmon/contact/obstacle_search.h>
 #include <akmon/contact/pair.h>
 #include <akmon/contact/penalty.h>
@@ -19,6 +20,23 @@
 namespace akmon
 {
   class Bonds;
+  /// What contact did at an interface, over this rank's pairs. Forces act on the surfaces named as
+  /// slaves; those of an obstacle on what it touches.
+  struct InterfaceReport
+  {
+    dealii::Tensor<1, 3> normal_force, friction_force;
+    dealii::Tensor<1, 3> moment;          ///< of both about the origin; force length
+    double max_penetration          = 0.; ///< length
+    double max_penetration_relative = 0.; ///< over the size of the cell faces at the slave
+    unsigned int sticking_pairs = 0, slipping_pairs = 0;
+
+    dealii::Tensor<1, 3>
+    force() const
+    {
+      return normal_force + friction_force;
+    }
+  };
+
 
   /// What contact did at a time level, summed or maximized over this rank's pairs.
   struct ContactReport
@@ -29,8 +47,10 @@ namespace akmon
     unsigned int deepest      = dealii::numbers::invalid_unsigned_int; ///< its slave, local number
     unsigned int active_pairs = 0;
     unsigned int sticking_pairs = 0;
-    unsigned int iterations     = 0;          ///< of the coupled solver, the same on all ranks
-    std::vector<dealii::Tensor<1, 3>> forces; ///< per interface, on the surfaces named as slaves
+    unsigned int iterations     = 0;    ///< of the coupled solver, the same on all ranks
+    bool converged              = true; ///< whether it met its tolerance, the same on all ranks
+    double residual             = 0.;   ///< gap violation it left, over the size of the cell faces
+    std::vector<InterfaceReport> interfaces;
   };
 
 
@@ -85,18 +105,27 @@ namespace akmon
     void
     add_increments(NodalState &state, const double effective_mass_factor);
 
-    /// Work of the normal and of the tangential contact forces, of bonds that hold and of bonds
-    /// that fail, through an increment; energy.
+    /// Works of the normal and of the tangential contact forces, of bonds that hold and of bonds
+    /// that fail, through an increment of this rank's nodes and of rigid bodies, per interface;
+    /// energy.
     struct Work
     {
       double normal = 0., tangential = 0., holding = 0., failing = 0.;
     };
-    Work
-    work(const NodalVector &increment) const;
+    std::vector<Work>
+    works(const NodalVector &increment, RigidIncrement (RigidBody::*motion)() const) const;
 
-    /// Elastic energy of this rank's penalty springs, none with other solvers; energy.
-    Work
-    stored_energy() const;
+    /// Whether normal forces store what they take: penalty springs.
+    bool
+    stores_energy() const
+    {
+      return solver.type == ContactSolver::Type::penalty;
+    }
+
+    /// Elastic energy of this rank's penalty springs per interface, none with other solvers;
+    /// energy.
+    std::vector<Work>
+    stored_energies() const;
 
     /// What the springs that act, or may in this step, add to the largest frequency squared of the
     /// bodies, lambda_max(M^{-1}(K + K_c)) <= lambda_max(M^{-1} K) + lambda_max(M^{-1} K_c)
@@ -113,15 +142,27 @@ namespace akmon
     ContactReport
     report(const NodalState &state) const;
 
+    /// Extents of the contact of an interface.
+    struct Patch
+    {
+      double area = 0.; ///< around this rank's slaves that carry a force; where both sides are
+                        ///< slaves the mean of the two; length^2
+      double max_pressure = 0.; ///< at a node of either side; force/length^2
+    };
+    std::vector<Patch>
+    patches(const NodalState &state) const;
+
     /// Names of the interfaces, in their order.
     std::vector<std::string>
     names() const;
 
-    /// Contact force at an owned node, as a slave and as a master; force.
+    /// Contact force of an interface at an owned node, as a slave and as a master; force.
     struct NodalForce
     {
       unsigned int node; ///< local number
+      unsigned int interface;
       dealii::Tensor<1, 3> normal, tangential;
+      bool sticks; ///< a pair that sticks has a part in it
     };
 
     const std::vector<NodalForce> &
@@ -134,6 +175,13 @@ namespace akmon
     get_pairs() const
     {
       return pairs;
+    }
+
+    /// Areas around owned nodes on contact surfaces.
+    const NodalAreas &
+    nodal_areas() const
+    {
+      return areas;
     }
 
     /// What the next step takes over from this one: the forces of the pairs (collective).
@@ -215,6 +263,7 @@ namespace akmon
     std::vector<RigidTouch> rigid_touches;         ///< of bodies that may meet
     const RigidNodes rigid_nodes;
     std::vector<unsigned int> surface_nodes;
+    const NodalAreas areas;
     ContactNodes nodes;
     Mobility mobility;
     const std::unique_ptr<Bonds> bonds;

@@ -154,6 +154,7 @@ namespace akmon
       unsigned int interface;
       Id slave;
       dealii::Tensor<1, 3> normal, tangential;
+      bool sticks;
     };
 
     /**

@@ -4,6 +4,7 @@
 #include <akmon/contact/delassus.h>
 #include <akmon/contact/pair.h>
 #include <akmon/contact/pair_preconditioner.h>
+#include <akmon/contact/semismooth_newton.h>
 
 #include <vector>
 
@@ -104,13 +105,14 @@ namespace akmon
     const ContactNodes &nodes;
     Delassus delassus_of_all, delassus;
     PairPreconditioner preconditioner;
+    SemismoothNewton<Delassus, PairPreconditioner> newton;
     unsigned int iterations_when_new = 0; ///< that fresh factors took
 
     std::vector<ContactPair *> all, coupled; ///< pairs that may close, those that share nodes
     std::vector<double> friction_of_all, friction;
-    std::vector<bool> isolated; ///< by number in `all`
-    std::vector<double> weights;
-    double norm               = 0.;
+    std::vector<bool> isolated;                                      ///< by number in `all`
+    SemismoothNewton<Delassus, PairPreconditioner>::Problem problem; ///< in tau_i = t_i/s_i
+    Delassus::Vector tau;
     bool couples_somewhere    = false;
     bool friction_somewhere   = false;
     unsigned int n_iterations = 0;

@@ -32,8 +32,9 @@ namespace akmon
     bool reversed = false;  ///< slave and master of the interface change roles
     unsigned int slave;     ///< local number of the (owned) slave node
     ContactNodes::Id slave_id;
-    unsigned int slot    = 0; ///< 0: with the closest face; else with another face of a corner
-    unsigned int search  = 0; ///< that found it: its number, of the slave and of the face there
+    unsigned int slot    = 0;     ///< 0: with the closest face; else with another face of a corner
+    bool shares_corner   = false; ///< the slave has pairs with several faces, each for itself
+    unsigned int search  = 0;     ///< that found it: its number, of the slave and of the face there
     unsigned int row     = 0;
     unsigned int face    = 0;
     unsigned int n_nodes = 1;

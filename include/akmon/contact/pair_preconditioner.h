@@ -1,7 +1,7 @@
 #pragma once
 
+#include <akmon/contact/coulomb_faces.h>
 #include <akmon/contact/delassus.h>
-#include <akmon/contact/friction_cylinders.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/pair.h>
 
@@ -52,9 +52,9 @@ namespace akmon
              (tangential.old && !tangential.members.empty());
     }
 
-    /// The free directions of the coming applications.
+    /// The faces whose free directions the coming applications are for.
     void
-    reinit(const std::vector<FreeDirections> &free);
+    reinit(const std::vector<CoulombFace> &faces);
 
     /// z close to A^{-1} r in the free directions.
     void
@@ -103,7 +103,7 @@ namespace akmon
     };
     std::vector<Entry> entries;
     std::vector<double> rigid_share; ///< by pair: what rigid bodies add to the unit diagonal
-    std::vector<FreeDirections> free;
+    std::vector<CoulombFace> faces;
     std::vector<unsigned int> row_of_pair; ///< in the factor in work
     std::vector<Eigen::Triplet<double>> triplets;
     Factor normal, tangential;

@@ -25,7 +25,7 @@ namespace akmon
      * Throws InputError for unknown surfaces.
      * @param number    of this search among all, for its pairs
      * @param reversed  the contact's masters are the slaves of this search and the other way round
-     * @param coupled   for the coupled solver: pairs have levers, corners a pair per face
+     * @param coupled   for the coupled solver: corners have a pair per face
      */
     SurfaceSearch(const Discretization &discretization,
                   const SurfaceContact &contact,
@@ -63,12 +63,14 @@ namespace akmon
      * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
      * numbers. Slaves that are further from their partners than @p reach may be left out.
      * @param positions  the same configuration as a nodal vector
+     * @param next       where the last increment would lead from there
      * @param reach      what may be closed in this step; length
      * @param travelled  how far surfaces may have moved against each other so far; length
      */
     void
     find_pairs(const NodalVector &positions,
                const ContactNodes::Field &x,
+               const ContactNodes::Field &next,
                const double reach,
                const double travelled,
                std::vector<ContactPair> &pairs);
@@ -129,6 +131,8 @@ namespace akmon
       double area, radius;                 ///< radius: from the middle to the furthest corner
     };
 
+    static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
+
     struct Partner
     {
       unsigned int face; ///< in masters
@@ -155,9 +159,26 @@ namespace akmon
              const unsigned int slave_number,
              const dealii::Tensor<1, 3> &outward) const;
     bool
+    opposes(const MasterFace &face,
+            const dealii::Tensor<1, 3> &normal,
+            const unsigned int slave) const;
+    dealii::Tensor<1, 3>
+    face_normal(const ContactNodes::Field &x, const Partner &partner) const;
+    bool
     complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
+    bool
+    lands_within_rim(const ContactNodes::Field &x,
+                     const ContactNodes::Field &next,
+                     const double reach,
+                     const unsigned int slave,
+                     Partner &partner) const;
     ContactPair
     make_pair(const ContactNodes::Field &x, const unsigned int slave, const Partner &partner) const;
+    void
+    add_valley_pairs(const ContactNodes::Field &x,
+                     const double reach,
+                     Partner partner,
+                     std::vector<ContactPair> &pairs) const;
     void
     add_corner_pairs(const ContactNodes::Field &x,
                      const double reach,
@@ -174,7 +195,7 @@ namespace akmon
     const Discretization &discretization;
     const SurfaceContact &contact;
     const unsigned int interface, number;
-    const bool reversed, turns_with_segments, has_friction;
+    const bool reversed, coupled, has_friction;
     double least_radius, search_radius;
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
 

@@ -22,6 +22,8 @@ namespace akmon
    */
   struct CellBatches
   {
+    static_assert(n_lanes <= 8, "watched and changed have eight bits");
+
     static constexpr unsigned int n_gauss_points = 8; ///< of a fully integrated cell
 
     /// Node numbers [node][lane] of a batch, times three: offsets into nodal vectors.
@@ -39,6 +41,13 @@ namespace akmon
     nodes(const unsigned int batch) const
     {
       return *reinterpret_cast<const NodeOffsets *>(&node_offsets[batch * 8 * n_lanes]);
+    }
+
+    /// Number of a lane's cell in Discretization::cells.
+    std::size_t
+    index_of(const unsigned int batch, const unsigned int lane) const
+    {
+      return first_cell + std::size_t(batch) * n_lanes + (lane < n_used_lanes[batch] ? lane : 0);
     }
 
     double *
@@ -68,6 +77,32 @@ namespace akmon
       return eroded[cell] != 0.;
     }
 
+    /// Let the estimate of the assembled frequency rest on a cell's strain.
+    void
+    watch(const std::size_t cell)
+    {
+      if (!is_eroded(cell))
+        watched[cell / n_lanes] |= 1u << cell % n_lanes;
+    }
+
+    /// Lanes that fill up a batch govern nothing.
+    void
+    clear_unused_frequencies(const unsigned int batch)
+    {
+      for (unsigned int lane = n_used_lanes[batch]; lane < n_lanes; ++lane)
+        frequencies[std::size_t(batch) * 2 * n_lanes + lane] = 0.;
+    }
+
+    /// Which lanes of a batch are watched.
+    Lanes::batch_bool_type
+    watched_lanes(const unsigned int batch) const
+    {
+      alignas(lane_alignment) double lanes[n_lanes];
+      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+        lanes[lane] = watched[batch] >> lane & 1;
+      return Lanes::load_aligned(lanes) > Lanes(0.);
+    }
+
     /// Take a cell out: it has no stress and no frequency any more, and no part in sums.
     void
     erode(const std::size_t cell);
@@ -92,5 +127,8 @@ namespace akmon
     LaneArray eroded; ///< [batch][lane], 1 for cells that were taken out, else 0
     LaneArray
       frequencies; ///< [batch][2][lane]: omega^2 as last computed, bound of its growth since
+    std::vector<std::uint8_t>
+      watched; ///< per batch, a bit per lane: cells of the last estimate of AssembledFrequency
+    std::vector<std::uint8_t> changed; ///< the same: cells that changed since its last full one
   };
 } // namespace akmon

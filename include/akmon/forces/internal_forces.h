@@ -35,6 +35,10 @@ namespace akmon
   public:
     explicit InternalForces(const Discretization &discretization);
 
+    /// Compute the frequencies of all cells in the initial configuration.
+    void
+    calibrate_initially();
+
     /**
      * Update the stresses from configuration n to n+1 and subtract the internal forces at n+1.
      * @param x      x_{n+1}, ghosted
@@ -55,6 +59,31 @@ namespace akmon
     {
       return frequency_squared;
     }
+
+    /// Largest growth of a bound of omega^2: in the last update, among the watched cells; and since
+    /// it was last computed, among those that are not watched but beyond the threshold.
+    struct Growth
+    {
+      double watched = 1., elsewhere = 1.;
+    };
+
+    const Growth &
+    growth() const
+    {
+      return growth_of_bounds;
+    }
+
+    /// Largest bound of omega^2 of this rank's cells now; 1/time^2.
+    double
+    largest_cell_bound() const;
+
+    /// Compute omega^2 anew where its bound is beyond a limit and may be too large by more than a
+    /// factor; mark these cells as changed.
+    void
+    tighten_bounds(const NodalVector &x, const double limit, const double factor);
+
+    /// omega^2 beyond which cells matter to growth(), 1/time^2; infinite at first.
+    double watch_threshold = std::numeric_limits<double>::infinity();
 
     /// The same in the initial configuration.
     double
@@ -132,6 +161,12 @@ namespace akmon
       return body_batches;
     }
 
+    std::vector<CellBatches> &
+    batches()
+    {
+      return body_batches;
+    }
+
     /// Stresses, internal variables and frequencies of all cells in global order, and the works
     /// (collective).
     void
@@ -151,7 +186,9 @@ namespace akmon
     bound_frequency(const Lanes &strain_squared,
                     CellBatches &batches,
                     const unsigned int batch,
-                    Lanes &largest) const;
+                    Lanes &largest,
+                    Lanes &growth_of_watched,
+                    Lanes &growth_elsewhere) const;
     void
     remove_invalid(const NodalVector &x,
                    CellBatches &batches,
@@ -179,9 +216,10 @@ namespace akmon
     std::vector<CellBatches> body_batches;
     std::vector<std::pair<unsigned int, Lanes::batch_bool_type>>
       to_calibrate; ///< batches and their cells whose bound is too loose, of the body in work
-    double frequency_squared            = 0.;
-    double initial_frequency_squared    = 0.;
-    double governing_frequency_squared  = 0.;
+    double frequency_squared           = 0.;
+    double initial_frequency_squared   = 0.;
+    double governing_frequency_squared = 0.;
+    Growth growth_of_bounds;
     std::size_t initially_limiting_cell = 0;
     unsigned long n_eroded_cells        = 0;
     double work                         = 0.;

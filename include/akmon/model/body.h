@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/model/copies.h>
 #include <akmon/model/mesh_library.h>
 #include <akmon/model/vector_function.h>
 
@@ -31,6 +32,9 @@ namespace akmon
   struct Body
   {
     std::string name;
+    std::string family; ///< of a copy: the name of the body it is a copy of
+    Copies copies;
+    unsigned int copy = 0; ///< number among the copies
     MeshParameters mesh;
     unsigned int refinement = 0;
     dealii::Tensor<1, 3> position; ///< where the body frame's origin goes, length
@@ -43,6 +47,20 @@ namespace akmon
     HourglassControl hourglass_control = HourglassControl::stiffness;
     double hourglass_coefficient       = 0.02; ///< kappa, dimensionless
     bool erodes = false; ///< cells that fail are taken out instead of ending the run
+
+    /// The name of the section that describes it.
+    const std::string &
+    section_name() const
+    {
+      return family.empty() ? name : family;
+    }
+
+    /// Whether a name is the body's or that of the body it is a copy of.
+    bool
+    is_called(const std::string &called) const
+    {
+      return called == name || called == family;
+    }
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -123,6 +123,18 @@ namespace akmon
       return partitioner->local_to_global(3 * node) / 3;
     }
 
+    /// Make cells heavier by given factors (number in cells) and lump the nodal masses anew
+    /// (collective).
+    void
+    scale_masses(std::vector<double> factors);
+
+    /// Mass of a cell over density times volume.
+    double
+    mass_factor_of(const std::size_t cell) const
+    {
+      return mass_factors.empty() ? 1. : mass_factors[cell];
+    }
+
     unsigned int n_owned_nodes = 0;
     unsigned int n_nodes       = 0; ///< owned and ghost
 
@@ -156,5 +168,6 @@ namespace akmon
     std::vector<std::map<std::string, std::set<dealii::types::boundary_id>>> parts; ///< per body
     std::vector<dealii::Point<3>> centres;
     std::vector<BoundaryFace> faces;
+    std::vector<double> mass_factors; ///< of relevant cells; empty: all one
   };
 } // namespace akmon

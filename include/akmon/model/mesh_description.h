@@ -4,11 +4,23 @@
 
 #include <deal.II/grid/tria.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace akmon
 {
+  using MeshFace = dealii::Triangulation<3>::face_iterator;
+
+  /// Whether all vertices of the face have exactly this coordinate.
+  bool
+  on_plane(const MeshFace &face, const unsigned int direction, const double coordinate);
+
+  /// Give every boundary face the id that `classify` finds for it.
+  void
+  set_boundary_ids(dealii::Triangulation<3> &triangulation,
+                   const std::function<dealii::types::boundary_id(const MeshFace &)> &classify);
+
   /// Vertices, cells and all boundary faces with their ids of an unrefined triangulation; no parts
   /// yet.
   BodyMesh

@@ -15,6 +15,33 @@ namespace akmon
   get_positive(dealii::ParameterHandler &prm, const std::string &section, const std::string &key);
 
 
+  /// The part of a body of revolution about z that is meshed.
+  enum class Sector
+  {
+    full,
+    half,   ///< x >= 0
+    quarter ///< x >= 0 and y >= 0
+  };
+
+  /// The entry "Sector".
+  void
+  declare_sector(dealii::ParameterHandler &prm);
+
+  /// Throws InputError (section, "Cells across") where the planes of symmetry would cut cells.
+  Sector
+  get_sector(dealii::ParameterHandler &prm,
+             const std::string &section,
+             const unsigned int cells_across);
+
+  /// Whether a point belongs to a sector.
+  template <int dim>
+  bool
+  is_in(const Sector sector, const dealii::Point<dim> &x)
+  {
+    return (sector == Sector::full || x[0] > 0) && (sector != Sector::quarter || x[1] > 0);
+  }
+
+
   // Every shape is a value with the same three functions: declare() its keys in the subsection the
   // handler stands in, parse() them (throws InputError, naming `section`), and make() its mesh,
   // complete but for the part "all".
@@ -46,13 +73,6 @@ namespace akmon
    */
   struct CylinderShape
   {
-    enum class Sector
-    {
-      full,
-      half,   ///< x >= 0
-      quarter ///< x >= 0 and y >= 0
-    };
-
     double radius; ///< length
     double length; ///< length
     unsigned int cells_across;
@@ -101,18 +121,21 @@ namespace akmon
     make(const std::string &section) const;
   };
 
-  /// A solid sphere with its center at the origin. Part: surface.
+  /// A solid sphere with its center at the origin. Part: surface; sectors have their planes of
+  /// symmetry as parts "x-" and "y-".
   struct SphereShape
   {
     double radius; ///< length
     unsigned int cells_across;
     unsigned int cells_radial;
+    Sector sector    = Sector::full;
+    double pole_size = 1.; ///< of cells at the pole z = -R over those of an even mesh
 
     static void
     declare(dealii::ParameterHandler &prm);
     void
     parse(dealii::ParameterHandler &prm, const std::string &section);
-    /// Number of cells, before any is made; of a full cylinder where this is a sector.
+    /// Number of cells, before any is made; of a full sphere where this is a sector.
     double
     n_cells() const
     {

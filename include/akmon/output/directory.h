@@ -11,9 +11,9 @@ namespace akmon
   /**
    * Make the output directory of a run ready: create it with its parents, prove that files can be
    * written into it, and remove the result files an earlier run of Akmon left there (fields.pvd,
-   * fields_*.vtu, history.csv, summary.json, parameters.prm, checkpoint*). All other files stay.
-   * Collective; on failure all ranks throw InputError, before anything has been removed. A run that
-   * restarts from this directory must not call it.
+   * fields_*.vtu, history.csv, contact.csv, summary.json, parameters.prm, checkpoint*). All other
+   * files stay. Collective; on failure all ranks throw InputError, before anything has been
+   * removed. A run that restarts from this directory must not call it.
    */
   void
   prepare_output_directory(const std::string &path, const MPI_Comm comm);

@@ -47,14 +47,18 @@ namespace akmon
     write_file(const dealii::DataOut<3> &data_out, const std::string &name) const;
     NodalVector
     nodal_velocity() const;
-    /// Components: contact pressure (force/area), gap (length, NaN without partner), status (0
-    /// open, 1 slip, 2 stick).
-    NodalVector
-    contact_scalars(const std::vector<double> &areas) const;
-    NodalVector
-    contact_traction(const std::vector<double> &areas) const;
-    std::vector<double>
-    contact_areas(const NodalState &state) const;
+    /**
+     * What contact does at owned nodes, of both sides.
+     * @param scalars   contact pressure (force/area), gap (length, of slaves; NaN without partner),
+     *                  status (0 open, 1 slip, 2 stick)
+     * @param traction  normal and friction force per area
+     * @param friction  friction force per area
+     */
+    void
+    fill_contact_fields(const NodalState &state,
+                        NodalVector &scalars,
+                        NodalVector &traction,
+                        NodalVector &friction) const;
 
     const std::string directory;
     const Discretization &discretization;

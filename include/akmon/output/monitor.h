@@ -9,6 +9,7 @@
 #include <akmon/output/energy_balance.h>
 #include <akmon/output/fields.h>
 #include <akmon/output/history.h>
+#include <akmon/output/interface_history.h>
 #include <akmon/output/probes.h>
 #include <akmon/time/fidcd.h>
 
@@ -97,6 +98,21 @@ namespace akmon
       return describe(deepest);
     }
 
+    /// What the coupled contact solver took and reached in the run so far.
+    struct SolverRecord
+    {
+      double iterations  = 0.;
+      double steps       = 0.; ///< that it iterated in
+      double unconverged = 0.; ///< steps that ended above its tolerance
+      double residual    = 0.; ///< the largest, over the cell size
+    };
+
+    const SolverRecord &
+    contact_solver() const
+    {
+      return solver_record;
+    }
+
     /// Pairs that carried a force at the last level (this rank's).
     unsigned int
     active_pairs() const
@@ -148,16 +164,18 @@ namespace akmon
     Watched watched;
     OutputTick field_tick, history_tick;
     History history;
+    InterfaceHistory interfaces;
     Fields fields;
     Probes probes;
 
-    WorkLine external, damping, friction, impact, bond;
+    WorkLine external, damping;
     EnergyBalance balance;
     double initial_energy = 0., largest_energy = 0.;
     ContactReport report;
     double penetration = 0., penetration_relative = 0.; ///< since the last row
     Extremum deepest;                                   ///< penetration over the cell size so far
     Extremes worst;
+    SolverRecord solver_record;
     bool row_due               = false;
     bool level_written         = false; ///< whether the fields of this level are on disk
     std::uint64_t history_size = 0;     ///< at the checkpoint the run goes on from; bytes

@@ -116,10 +116,8 @@ namespace akmon
     /// Works of the level's forces through the increment before the level and the one after it.
     struct Work
     {
-      double external   = 0.; ///< of gravity and loads; of what moves a prescribed body
-      double damping    = 0.; ///< taken by it
-      double normal     = 0.; ///< of normal contact forces
-      double tangential = 0.; ///< of friction
+      double external = 0.; ///< of gravity and loads; of what moves a prescribed body
+      double damping  = 0.; ///< taken by it
     };
 
     Work

@@ -14,6 +14,8 @@ namespace akmon
     double fixed_step    = 0.; ///< zero: automatic
     double safety_factor = 0.9;
     double smallest      = 1e-3;  ///< of the automatic step, over the critical one of the start
+    double scaled_step   = 0.;    ///< for which cells are made heavier; zero: none are
+    bool assembled       = false; ///< omega_max of the assembled system, not of its cells
     bool unstable        = false; ///< a fixed step above the critical one is accepted
 
     static void
@@ -39,6 +41,10 @@ namespace akmon
     choose(const double t,
            const double largest_frequency_squared,
            const bool cuts_fixed = false) const;
+
+    /// omega^2 beyond which cells are made heavier, 1/time^2; infinite without mass scaling.
+    double
+    mass_scaling_limit() const;
 
     /// Whether the run has reached its end at time t.
     bool

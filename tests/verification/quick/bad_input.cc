@@ -415,8 +415,13 @@ end
   // What an earlier run left in the output directory stays as it is.
   TEST_F(BadInputFile, leaves_earlier_results_alone)
   {
-    const std::vector<std::string> files =
-      {"fields.pvd", "fields_000000.vtu", "history.csv", "summary.json", "parameters.prm", "notes"};
+    const std::vector<std::string> files = {"fields.pvd",
+                                            "fields_000000.vtu",
+                                            "history.csv",
+                                            "contact.csv",
+                                            "summary.json",
+                                            "parameters.prm",
+                                            "notes"};
     fs::create_directories(output);
     for (const auto &name : files)
       write_text(output + "/" + name, "from the last run: " + name);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <sys/resource.h>
 #include <thread>
 
 #include "support/background_run.h"
@@ -24,6 +23,20 @@ namespace
     {
       overrides.insert(overrides.end(), {"Time/End=1e6", "Output/Fields interval=0"});
       return arguments_for(shipped("one_cell"), directory, overrides);
+    }
+
+    // The newest checkpoint, once it is no longer the one given (or after 20 seconds).
+    std::string
+    newest_after(const std::string &last) const
+    {
+      std::string newest = last;
+      for (unsigned int i = 0; i < 4000 && newest == last; ++i)
+        {
+          std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          const auto checkpoints = checkpoints_in(directory);
+          newest                 = checkpoints.empty() ? last : checkpoints.back();
+        }
+      return newest;
     }
 
     const ScratchDirectory scratch;
@@ -57,13 +70,7 @@ namespace
     for (unsigned int n = 0; n < 3; ++n)
       {
         run.send(SIGUSR1);
-        std::string newest;
-        for (unsigned int i = 0; i < 2000 && newest == last; ++i)
-          {
-            std::this_thread::sleep_for(std::chrono::milliseconds(5));
-            const auto checkpoints = checkpoints_in(directory);
-            newest                 = checkpoints.empty() ? last : checkpoints.back();
-          }
+        const std::string newest = newest_after(last);
         EXPECT_NE(newest, last);
         last = newest;
       }
@@ -83,67 +90,34 @@ namespace
   }
 
 
-  // While it lives, no file of this process grows beyond a size; writes fail as on a full disk.
-  class FullDisk
-  {
-  public:
-    explicit FullDisk(const rlim_t size)
-      : former_handler(std::signal(SIGXFSZ, SIG_IGN))
-    {
-      getrlimit(RLIMIT_FSIZE, &former);
-      const rlimit limit{size, former.rlim_max};
-      setrlimit(RLIMIT_FSIZE, &limit);
-    }
-
-    ~FullDisk()
-    {
-      setrlimit(RLIMIT_FSIZE, &former);
-      std::signal(SIGXFSZ, former_handler);
-    }
-
-    FullDisk(const FullDisk &) = delete;
-
-  private:
-    rlimit former{};
-    void (*former_handler)(int);
-  };
-
-
   // Checkpoints of the bars have 341 kB, all other files fewer than 300.
   TEST_F(CheckpointWriting, on_a_full_disk_stops_with_the_last_one_intact)
   {
-    const std::vector<std::string> overrides = {"Checkpoint/Steps=10", "Output/History steps=0"};
-    const auto before = arguments_for(shipped("two_bars"), directory, overrides);
-    ASSERT_EQ(run_program(before).status, 0);
-    const auto checkpoints = checkpoints_in(directory);
-    ASSERT_EQ(checkpoints.size(), 2u);
+    const std::vector<std::string> overrides = {"Time/End=1e6",
+                                                "Output/Fields interval=0",
+                                                "Output/History steps=0"};
+    BackgroundRun run(arguments_for(shipped("two_bars"), directory, overrides), output);
+    ASSERT_TRUE(run.wait_for(directory + "/history.csv", 30.)) << file_content(output);
+    run.send(SIGUSR1);
+    const std::string intact = newest_after("");
+    ASSERT_NE(intact, "");
 
-    const std::string newest = directory + "/" + checkpoints[1];
-    akmon::Simulation simulation(akmon::Case::read(directory + "/parameters.prm",
-                                                   {"Time/End=4e-4"}),
-                                 MPI_COMM_SELF,
-                                 true);
-    {
-      const FullDisk full_disk(300000);
-      try
-        {
-          simulation.run(newest);
-          FAIL() << "the run did not notice";
-        }
-      catch (const akmon::RunError &error)
-        {
-          EXPECT_EQ(error.status, akmon::ExitStatus::output_failed);
-          EXPECT_NE(std::string(error.what()).find("cannot write '" + directory + "/checkpoint_"),
-                    std::string::npos)
-            << error.what();
-          EXPECT_NE(std::string(error.what()).find("File too large"), std::string::npos);
-        }
-    }
-    EXPECT_EQ(checkpoints_in(directory), checkpoints);
+    run.limit_file_size(300000);
+    run.send(SIGUSR1);
+    EXPECT_EQ(run.wait(), 7); // HDF5 survives until the program has ended
+    const std::string said = file_content(output);
+    EXPECT_NE(said.find("cannot write '" + directory + "/checkpoint_"), std::string::npos) << said;
+    EXPECT_NE(said.find("File too large"), std::string::npos) << said;
+    EXPECT_EQ(checkpoints_in(directory), std::vector<std::string>{intact});
     for (const auto &entry : fs::directory_iterator(directory))
       EXPECT_NE(entry.path().extension(), ".tmp");
-    const auto rest = run_program({"--restart", directory, "--set", "Time/End=2.2e-4"});
+
+    const double step          = 0.7274e-6;
+    const unsigned long n_done = std::stoul(intact.substr(std::string("checkpoint_").size()));
+    const auto rest            = run_program(
+      {"--restart", directory, "--set", "Time/End=" + akmon::shortest_text((n_done + 10) * step)});
     EXPECT_EQ(rest.status, 0) << rest.output;
+    EXPECT_EQ(summary_value(directory, "steps"), std::to_string(n_done + 10));
   }
 
 

@@ -132,7 +132,7 @@ namespace
     shape.cells_across  = 3;
     shape.cells_radial  = 2;
     shape.cells_axial   = 4;
-    shape.sector        = CylinderShape::Sector::full;
+    shape.sector        = Sector::full;
     shape.axial_grading = 3.;
     const Discretization cylinder({body_of(shape, CellIntegration::full)},
                                   {elastic(7800.)},

@@ -202,7 +202,7 @@ namespace
   TEST_F(RefusedCheckpoint, of_another_format)
   {
     std::string content = file_content(newest);
-    const auto at       = content.find("\nformat 1\n");
+    const auto at       = content.find("\nformat 2\n");
     ASSERT_LT(at, 512u);
     content[at + 8] = '9';
     write_file(newest, content);

@@ -217,6 +217,41 @@ namespace
   }
 
 
+  class OverhangingBars : public testing::TestWithParam<std::tuple<const char *, const char *>>
+  {
+  };
+
+
+  // Bars that move across each other while they meet: slaves at the rim hang over their partner's
+  // edge, and gaps close under friction. Forces at the two ends of such a gap must make no couple.
+  TEST_P(OverhangingBars, keep_their_angular_momentum)
+  {
+    const std::string solver = std::get<0>(GetParam()), friction = std::get<1>(GetParam());
+    const auto history = run_case(shipped("two_bars"),
+                                  {"Contact solver/Type=" + solver,
+                                   "Contact/interface/Friction coefficient=" + friction,
+                                   "Bodies/left/Box/Cells=4, 2, 2",
+                                   "Bodies/right/Box/Cells=4, 2, 2",
+                                   "Bodies/left/Velocity=202.2, 6, 8"});
+    EXPECT_GT(history["impact_dissipation"].back(), 0.);
+    double change = 0.;
+    for (std::size_t i = 0; i < history.n_rows(); ++i)
+      change = std::max(change,
+                        (vector_at(history, "angular_momentum", i) -
+                         vector_at(history, "angular_momentum", 0))
+                          .norm());
+    constexpr double length = 10.;
+    RecordProperty("angular_momentum", akmon::shortest_text(change / (mass * v0 * length)));
+    EXPECT_LE(change, 1e-14 * mass * v0 * length);
+  }
+
+
+  INSTANTIATE_TEST_SUITE_P(Solvers,
+                           OverhangingBars,
+                           testing::Combine(testing::Values("decoupled", "coupled"),
+                                            testing::Values("0", "0.3")));
+
+
   INSTANTIATE_TEST_SUITE_P(
     Frames,
     TwoBarsMoved,

@@ -1,4 +1,4 @@
-#include <akmon/contact/projected_newton.h>
+#include <akmon/contact/semismooth_newton.h>
 
 #include <gtest/gtest.h>
 
@@ -205,20 +205,22 @@ namespace
   struct Diagonal
   {
     void
-    reinit(const std::vector<FreeDirections> &new_free)
+    reinit(const std::vector<CoulombFace> &new_faces)
     {
-      free = new_free;
+      faces = new_faces;
     }
 
     void
     apply(const std::vector<Vector> &r, std::vector<Vector> &z) const
     {
       for (std::size_t i = 0; i < r.size(); ++i)
-        z[i] = r[i] - (free[i].curvature / (1. + free[i].curvature) * (free[i].along * r[i])) *
-                        free[i].along;
+        {
+          const auto &face = faces[i];
+          z[i] = r[i] - (face.curvature / (1. + face.curvature) * (face.along * r[i])) * face.along;
+        }
     }
 
-    std::vector<FreeDirections> free;
+    std::vector<CoulombFace> faces;
   };
 
 
@@ -236,36 +238,15 @@ namespace
         std::vector<Vector> &t,
         const unsigned int limit = 2000)
   {
-    struct Operator
-    {
-      void
-      apply(const std::vector<Vector> &tau, std::vector<Vector> &y) const
-      {
-        problem.apply(tau, y);
-      }
-
-      void
-      limits(const std::vector<Vector> &tau, std::vector<double> &radius) const
-      {
-        for (std::size_t i = 0; i < tau.size(); ++i)
-          radius[i] = friction[i] * tau[i][0];
-      }
-
-      const Problem &problem;
-      const std::vector<double> &friction;
-    };
-    Operator op{problem, friction};
     Diagonal diagonal;
-    using Solver = ProjectedNewton<Operator, Diagonal>;
-    Solver solver(op, diagonal, MPI_COMM_SELF, tolerance, limit);
-    const bool any    = std::any_of(friction.begin(), friction.end(), [](const double mu) {
-      return mu > 0.;
-    });
+    SemismoothNewton<const Problem, Diagonal> solver(problem, diagonal, MPI_COMM_SELF);
     const auto result = solver.solve({problem.b,
+                                      friction,
                                       std::vector<double>(t.size(), 1.),
                                       norm_bound(problem.S),
-                                      any,
-                                      1e-7},
+                                      1e-7,
+                                      tolerance,
+                                      limit},
                                      t);
     return {result.n_applications, result.residual, result.converged};
   }
@@ -423,7 +404,7 @@ namespace
           const Problem problem(n, n_repeated, seed, flat);
           const auto friction = coefficients(n, seed);
           std::vector<Vector> t(n);
-          const auto result = solve(problem, friction, t);
+          const auto result = solve(problem, friction, t, 10000);
           ASSERT_TRUE(result.converged)
             << seed << (flat ? " flat" : "") << ": residual " << result.residual;
           expect_conditions(problem, friction, t, seed);
@@ -444,77 +425,19 @@ namespace
         const auto friction = coefficients(n, seed);
         std::vector<Vector> t(n), plain(n), g(n);
         ASSERT_TRUE(solve(problem, friction, t).converged);
-        FrictionCylinders set{std::vector<double>(n)};
         const double step = 1. / norm_bound(problem.S);
         for (unsigned int k = 0; k < 100000; ++k)
           {
             problem.apply(plain, g);
             for (unsigned int i = 0; i < n; ++i)
               {
-                set.radius[i] = friction[i] * plain[i][0];
-                plain[i]      = set.project(i, plain[i] - step * (g[i] + problem.b[i]));
+                const double limit = friction[i] * plain[i][0];
+                plain[i] = CoulombFace::project(plain[i] - step * (g[i] + problem.b[i]), limit);
               }
           }
         const auto w = problem.relative_motion(t), w_plain = problem.relative_motion(plain);
         for (unsigned int i = 0; i < n; ++i)
           EXPECT_LE((w[i] - w_plain[i]).norm(), 1e-8) << seed;
       }
-  }
-
-
-  TEST(FrictionCylinders, project_and_measure)
-  {
-    const FrictionCylinders set{{5., 0.}};
-    EXPECT_LE((set.project(0, Vector({2., 6., 8.})) - Vector({2., 3., 4.})).norm(), 1e-15);
-    EXPECT_EQ(set.project(0, Vector({-3., 1., 2.})), Vector({0., 1., 2.}));
-    EXPECT_EQ(set.project(1, Vector({3., 1., 2.})), Vector({3., 0., 0.}));
-    EXPECT_FALSE(set.is_inside_circle(0, Vector({7., 3., 4.})));
-    EXPECT_TRUE(set.is_inside_circle(0, Vector({7., 3., 3.9})));
-
-    FreeDirections free;
-    free.tangential = FreeDirections::Tangential::disc;
-    const Vector t({3., 1., 2.}), p({0., -1., 0.5}), q({2., 0., 0.});
-    EXPECT_NEAR(set.tangential_size(t - set.longest_step(0, free, t, p) * p), 5., 1e-14);
-    EXPECT_GT(set.longest_step(0, free, t, p), 0.);
-    EXPECT_EQ(set.longest_step(0, free, t, q), 1.5);
-    EXPECT_GT(set.longest_step(0, free, t, -q), 1e300);
-    EXPECT_GT(set.longest_step(0, free, t, Vector()), 1e300);
-
-    // Along the circle by an angle of a half at most.
-    free.tangential = FreeDirections::Tangential::circle;
-    free.along      = Vector({0., 0.6, -0.8});
-    EXPECT_NEAR(set.longest_step(0, free, t, 10. * free.along), 0.25, 1e-15);
-  }
-
-
-  TEST(FrictionCylinders, have_faces)
-  {
-    using Tangential = FreeDirections::Tangential;
-    const FrictionCylinders set{{5., 0.}};
-    EXPECT_TRUE(set.face_at(0, Vector({1., 0., 0.})).normal);
-    EXPECT_FALSE(set.face_at(0, Vector()).normal);
-    EXPECT_EQ(set.face_at(1, Vector({3., 0., 0.})).tangential, Tangential::none);
-    EXPECT_EQ(set.face_at(0, Vector({1., 3., 0.})).tangential, Tangential::disc);
-    const Vector t({0., 3., 4.});
-    auto on_circle = set.face_at(0, t);
-    EXPECT_EQ(on_circle.tangential, Tangential::circle);
-
-    // The energy falls outwards and when the pair closes: it slips, and gets a force.
-    const Vector outwards({-1., -0.3, -0.4}), inwards({1., 0.3, 0.4});
-    EXPECT_NEAR(set.pressing(t, outwards), 0.5, 1e-15);
-    EXPECT_EQ(set.released(t, outwards, on_circle).tangential, Tangential::circle);
-    EXPECT_TRUE(set.released(t, outwards, on_circle).normal);
-    // Inwards and when it opens: it sticks, and gets none.
-    EXPECT_EQ(set.released(t, inwards, on_circle).tangential, Tangential::disc);
-    EXPECT_FALSE(set.released(t, inwards, on_circle).normal);
-
-    set.update_circle(0, t, outwards, on_circle);
-    EXPECT_NEAR(on_circle.curvature, 0.5 / 5., 1e-15);
-    EXPECT_NEAR(std::abs(on_circle.along * Vector({0., -0.8, 0.6})), 1., 1e-15);
-    const Vector v({3., 1., 2.});
-    EXPECT_LE((set.restrict_to(on_circle, v) - (on_circle.along * v) * on_circle.along).norm(),
-              1e-15);
-    on_circle.normal = true;
-    EXPECT_EQ(set.restrict_to(on_circle, v)[0], 3.);
   }
 } // namespace

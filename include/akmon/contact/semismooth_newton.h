@@ -1,0 +1,330 @@
+#pragma once
+
+#include <akmon/contact/coulomb_faces.h>
+#include <akmon/contact/gmres.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace akmon
+{
+  /**
+   * Solves the frictional contact problem of a step
+   *
+   *     w = A t + b,   0 <= t_n _|_ w_n >= 0,   |t_tau| <= mu t_n,   w_tau = -lambda t_tau,
+   *     lambda >= 0,   lambda (mu t_n - |t_tau|) = 0
+   *
+   * for forces t, a vector per pair, by a semi-smooth Newton method: the predictor t - rho w tells
+   * for all pairs at once which are open, stick or slip (CoulombFace); on these faces the problem
+   * is a linear system, not symmetric where pairs slip, since t_tau follows t_n; its solution gives
+   * the next predictor (Alart and Curnier 1991; without friction the primal-dual active set method
+   * of Hueber and Wohlmuth, Comput. Methods Appl. Mech. Eng. 194, 2005). The systems are solved by
+   * preconditioned GMRES. Where faces go round in a circle, other values of rho are tried.
+   *
+   * A may be singular where constraints repeat each other: a compliance c makes forces unique, w =
+   * A t + c (t - t_0) + b, first with t_0 = 0, then with the first solution (Tikhonov's method,
+   * iterated once), which leaves an error of c^2.
+   *
+   * Operator has apply(t, y): y = A t (collective). Preconditioner has reinit(faces) and then
+   * apply(r, z): z close to (A + curvatures + c)^{-1} r in the free directions.
+   */
+  template <typename Operator, typename Preconditioner>
+  class SemismoothNewton
+  {
+  public:
+    using Vector = std::vector<CoulombFace::Force>;
+
+    struct Problem
+    {
+      Vector b;                     ///< w without forces
+      std::vector<double> friction; ///< mu of the pairs
+      std::vector<double> weights;  ///< what a component of w counts in the residual
+      double norm;                  ///< an upper bound of the norm of A
+      double compliance;            ///< c, relative to the diagonal of A: one
+      double tolerance;             ///< of the residual
+      unsigned int limit;           ///< of applications of A
+    };
+
+    struct Result
+    {
+      unsigned int n_applications; ///< of A
+      double residual;             ///< largest weighted component of the projected gradient
+      bool converged;
+    };
+
+    SemismoothNewton(Operator &op, Preconditioner &precondition, const MPI_Comm communicator)
+      : op(op)
+      , precondition(precondition)
+      , communicator(communicator)
+      , gmres(communicator)
+    {
+    }
+
+    /// @param t  start on entry, solution on return
+    Result
+    solve(const Problem &new_problem, Vector &t)
+    {
+      problem        = &new_problem;
+      n_applications = 0;
+      n_relaxations  = 25;
+      if (!(problem->norm > 0.)) // nothing can move
+        return {0, 0., true};
+      constexpr unsigned int most_references = 4;
+
+      const std::size_t n = t.size();
+      step                = 1.9 / (problem->norm + problem->compliance);
+      faces.resize(n);
+      for (Vector *const v : {&g, &r, &direction, &image})
+        v->resize(n);
+      reference.assign(n, CoulombFace::Force());
+      compute_gradient(t);
+      double residual = solve_for_reference(t);
+      for (unsigned int k = 0;
+           k < most_references && (k == 0 || error_of_compliance(t) > problem->tolerance);
+           ++k)
+        {
+          refer_to(t);
+          residual = solve_for_reference(t);
+        }
+      for (std::size_t i = 0; i < n; ++i) // what the tolerance left
+        t[i] = CoulombFace::project(t[i], limit_of(i, t[i]));
+      return {n_applications, residual, residual <= problem->tolerance};
+    }
+
+  private:
+    double
+    limit_of(const std::size_t i, const CoulombFace::Force &t) const
+    {
+      return limits_are_given ? limits[i] : problem->friction[i] * std::max(t[0], 0.);
+    }
+
+    void
+    compute_gradient(const Vector &t)
+    {
+      op.apply(t, g);
+      ++n_applications;
+      drift = 0.;
+      for (std::size_t i = 0; i < t.size(); ++i)
+        g[i] += problem->b[i] + problem->compliance * (t[i] - reference[i]);
+    }
+
+    // Largest weighted component of (t - P(t - a g))/a over all ranks.
+    double
+    measure(const Vector &t) const
+    {
+      double residual = 0.;
+      for (std::size_t i = 0; i < t.size(); ++i)
+        {
+          const auto reached = CoulombFace::project(t[i] - step * g[i], limit_of(i, t[i]));
+          residual = std::max(residual, problem->weights[i] * (t[i] - reached).norm() / step);
+        }
+      return dealii::Utilities::MPI::max(residual, communicator);
+    }
+
+    // Largest weighted component of c (t - t_0) over all ranks.
+    double
+    error_of_compliance(const Vector &t) const
+    {
+      double error = 0.;
+      for (std::size_t i = 0; i < t.size(); ++i)
+        error = std::max(error,
+                         problem->compliance * problem->weights[i] * (t[i] - reference[i]).norm());
+      return dealii::Utilities::MPI::max(error, communicator);
+    }
+
+    void
+    refer_to(const Vector &t)
+    {
+      for (std::size_t i = 0; i < t.size(); ++i)
+        {
+          g[i] -= problem->compliance * (t[i] - reference[i]);
+          reference[i] = t[i];
+        }
+    }
+
+    // Solve the problem with its present reference; returns the residual. For given friction limits
+    // it is convex and always solved: where the faces of the true problem do not settle, limits
+    // follow normal forces in a loop around it.
+    double
+    solve_for_reference(Vector &t)
+    {
+      constexpr unsigned int most_limits = 50;
+      constexpr double part              = 0.05; // of the residual, while limits still change
+
+      limits_are_given = false;
+      double residual  = find_faces(t, 0.5 * problem->tolerance);
+      for (unsigned int k = 0;
+           k < most_limits && residual > problem->tolerance && n_applications < problem->limit;
+           ++k)
+        {
+          limits_are_given = false;
+          limits.resize(t.size());
+          for (std::size_t i = 0; i < t.size(); ++i)
+            limits[i] = limit_of(i, t[i]);
+          limits_are_given = true;
+          residual         = measure(t);
+          if (residual > problem->tolerance)
+            find_faces(t, std::max(0.5 * problem->tolerance, part * residual));
+        }
+      limits_are_given = false;
+      return residual;
+    }
+
+    // Newton steps until the residual is small enough; returns it.
+    double
+    find_faces(Vector &t, const double enough)
+    {
+      struct Attempt
+      {
+        double rho;       // of the predictor
+        double reduction; // of the residual of linear systems
+      };
+      constexpr std::array<Attempt, 5> attempts = {
+        {{1., 1e-5}, {1., 1e-9}, {0.1, 1e-9}, {2., 1e-9}, {0.5, 1e-9}}};
+      constexpr unsigned int patience = 8; // steps without improvement
+
+      double best = std::numeric_limits<double>::max();
+      t_best      = t;
+      for (const auto &attempt : attempts)
+        {
+          for (unsigned int since_best = 0; since_best < patience; ++since_best)
+            {
+              choose_faces(t, attempt.rho);
+              const double residual = measure(t);
+              if (residual <= enough)
+                return residual;
+              if (residual < 0.9 * best)
+                {
+                  best       = residual;
+                  t_best     = t;
+                  since_best = 0;
+                }
+              if (n_applications >= problem->limit)
+                break;
+              newton_step(t, attempt.reduction);
+            }
+          t = t_best;
+          compute_gradient(t);
+          if (n_applications >= problem->limit)
+            break;
+          if (&attempt != attempts.data()) // exact systems may be all that was missing
+            relax(t);
+        }
+      return best;
+    }
+
+    // Projected gradient steps: slow, but for given limits they lead to the solution from anywhere.
+    // More of them each time they are needed in a solution.
+    void
+    relax(Vector &t)
+    {
+      constexpr unsigned int most = 400;
+
+      for (unsigned int k = 0; k < n_relaxations && n_applications < problem->limit; ++k)
+        {
+          for (std::size_t i = 0; i < t.size(); ++i)
+            t[i] = CoulombFace::project(t[i] - step * g[i], limit_of(i, t[i]));
+          compute_gradient(t);
+        }
+      n_relaxations = std::min(2 * n_relaxations, most);
+    }
+
+    // The faces that the predictor tells, and the forces taken there.
+    void
+    choose_faces(Vector &t, const double rho)
+    {
+      constexpr double rounding = 1e-14;
+
+      double lost = drift; // by updating the gradient instead of computing it
+      for (std::size_t i = 0; i < t.size(); ++i)
+        {
+          const auto before = t[i], q = before - rho * g[i];
+          faces[i] = CoulombFace::predicted_by(q,
+                                               limit_of(i, q),
+                                               limits_are_given ? 0. : problem->friction[i],
+                                               rho);
+          t[i]     = faces[i].settle(before, limit_of(i, before));
+          if ((t[i] - before).norm() > rounding * before.norm())
+            lost = std::numeric_limits<double>::max();
+        }
+      if (dealii::Utilities::MPI::max(lost, communicator) > 0.05 * problem->tolerance)
+        compute_gradient(t);
+    }
+
+    // t + p with g + (A + c) p = 0 in the free components, where turning along a circle counts with
+    // its curvature.
+    void
+    newton_step(Vector &t, const double reduction)
+    {
+      constexpr unsigned int dimension = 80;
+
+      double square = 0., weighted = 0.;
+      for (std::size_t i = 0; i < t.size(); ++i)
+        {
+          r[i] = -faces[i].restrict_to(g[i]);
+          square += r[i].norm_square();
+          weighted = std::max(weighted, problem->weights[i] * r[i].norm());
+        }
+      const double norm = std::sqrt(dealii::Utilities::MPI::sum(square, communicator));
+      weighted          = dealii::Utilities::MPI::max(weighted, communicator);
+      const double goal = weighted > 0. ? 0.15 * problem->tolerance / weighted : 1.;
+      precondition.reinit(faces);
+      gmres.solve([&](Vector &p, Vector &of_p, Vector &y) { apply_on_faces(p, of_p, y); },
+                  [&](const Vector &v, Vector &z) {
+                    precondition.apply(v, z);
+                    for (std::size_t i = 0; i < v.size(); ++i)
+                      z[i] = faces[i].restrict_to(z[i]);
+                  },
+                  r,
+                  std::max(reduction, goal) * norm,
+                  std::min(dimension, problem->limit - std::min(n_applications, problem->limit)));
+      gmres.combine(direction, image);
+      for (std::size_t i = 0; i < t.size(); ++i)
+        {
+          t[i] += direction[i];
+          g[i] += image[i];
+          drift = std::max(drift,
+                           std::numeric_limits<double>::epsilon() * problem->weights[i] *
+                             image[i].norm());
+        }
+    }
+
+    // Takes p from its free components to changes of forces.
+    void
+    apply_on_faces(Vector &p, Vector &of_p, Vector &y)
+    {
+      for (std::size_t i = 0; i < p.size(); ++i)
+        {
+          y[i] = (faces[i].curvature * (p[i] * faces[i].along)) * faces[i].along;
+          p[i] = faces[i].lift(p[i]);
+        }
+      op.apply(p, of_p);
+      ++n_applications;
+      for (std::size_t i = 0; i < p.size(); ++i)
+        {
+          of_p[i] += problem->compliance * p[i];
+          y[i] += faces[i].restrict_to(of_p[i]);
+        }
+    }
+
+    Operator &op;
+    Preconditioner &precondition;
+    const MPI_Comm communicator;
+    Gmres gmres;
+    const Problem *problem      = nullptr;
+    unsigned int n_applications = 0;
+    unsigned int n_relaxations  = 0; ///< in the next relaxation
+    double step                 = 0.;
+    double drift                = 0.; ///< rounding of g since it was computed
+    bool limits_are_given       = false;
+    std::vector<double> limits; ///< of friction, if given
+    std::vector<CoulombFace> faces;
+    Vector g; ///< A t + b + c (t - t_0)
+    Vector reference, t_best, r, direction, image;
+  };
+} // namespace akmon

@@ -1,0 +1,113 @@
+#include <akmon/contact/surface_search.h>
+
+#include <algorithm>
+
+// Further partners of a slave: where the master surface is concave one face is not enough.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Pairs of one slave stand together, from the first one on.
+    void
+    add_to_corner(const std::size_t first, ContactPair pair, std::vector<ContactPair> &pairs)
+    {
+      pair.slot          = pairs.size() - first;
+      pair.shares_corner = true;
+      pairs.push_back(pair);
+      pairs[first].shares_corner = true;
+    }
+  } // namespace
+
+
+  // The neighbours across the edges of a valley that the slave may cross in the step: it must stay
+  // before both faces, whose normals differ. The gap to the closest point alone, along the normal
+  // of the face it leaves, would be found wrong by the solution only, and friction drags the slave
+  // further the more that normal pushes it.
+  void
+  SurfaceSearch::add_valley_pairs(const ContactNodes::Field &x,
+                                  const double reach,
+                                  Partner partner,
+                                  std::vector<ContactPair> &pairs) const
+  {
+    constexpr double nearly_flat = 0.99875; // cosine of 0.05
+    constexpr double part        = 0.25;    // of the reach: what slaves slide in a step at most
+
+    if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
+      return;
+    const std::size_t first  = pairs.size() - 1;
+    const unsigned int slave = pairs[first].row, first_face = partner.face;
+    const auto point  = x[slaves[slave].number];
+    const auto foot   = point - partner.projection.offset;
+    const auto normal = face_normal(x, partner);
+    std::vector<unsigned int> seen;
+    for (const unsigned int node : masters[first_face].nodes)
+      for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
+        {
+          Partner neighbour;
+          neighbour.face           = faces_at[i];
+          const MasterFace &master = masters[neighbour.face];
+          if (neighbour.face == first_face ||
+              std::find(seen.begin(), seen.end(), neighbour.face) != seen.end())
+            continue;
+          seen.push_back(neighbour.face);
+          const Segment corners = segment(x, master);
+          const auto area       = area_vector(corners);
+          const auto middle     = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+          if (area * normal > nearly_flat * area.norm() || (middle - foot) * normal <= 0. ||
+              !opposes(master, area, slave))
+            continue;
+          neighbour.projection = project(point, corners);
+          neighbour.normal     = face_normal(x, neighbour);
+          neighbour.gap        = neighbour.normal * neighbour.projection.offset;
+          const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
+          if (neighbour.gap <= reach && beside.norm() <= part * reach)
+            add_to_corner(first, make_pair(x, slave, neighbour), pairs);
+        }
+    // The mean normal of an edge is none of its faces'.
+    if (pairs[first].shares_corner && partner.projection.feature != Projection::Feature::face)
+      {
+        partner.normal             = normal;
+        partner.gap                = normal * partner.projection.offset;
+        pairs[first]               = make_pair(x, slave, partner);
+        pairs[first].shares_corner = true;
+      }
+  }
+
+
+  // Further faces of a corner that the slave may run into: turned against the first partner, with
+  // the slave in front of them.
+  void
+  SurfaceSearch::add_corner_pairs(const ContactNodes::Field &x,
+                                  const double reach,
+                                  std::vector<ContactPair> &pairs) const
+  {
+    constexpr double turned = 0.5; // cosine
+
+    const std::size_t first  = pairs.size() - 1;
+    const unsigned int slave = pairs[first].row;
+    const auto point         = x[slaves[slave].number];
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+      {
+        Partner partner;
+        partner.face         = candidates[i];
+        const auto &shape    = shapes[partner.face];
+        const double longest = shape.radius + reach;
+        const auto is_turned = [&](const ContactPair &other) {
+          return shape.normal * other.normal < turned * shape.area;
+        };
+        if ((point - shape.middle).norm_square() > longest * longest ||
+            !opposes(masters[partner.face], shape.normal, slave) ||
+            !std::all_of(pairs.begin() + first, pairs.end(), is_turned))
+          continue;
+        partner.projection = project(point, segment(x, masters[partner.face]));
+        if (partner.projection.feature == Projection::Feature::face &&
+            partner.projection.offset.norm() <= reach && complete(x, slave, partner))
+          {
+            add_to_corner(first, make_pair(x, slave, partner), pairs);
+          }
+      }
+  }
+} // namespace akmon
