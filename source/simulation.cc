@@ -306,7 +306,7 @@ namespace akmon
         screen.warning(repair);
     if (state.dt_next > critical)
       screen.warning("the time step is above the critical step " + shortest_text(critical));
-    if (added_mass > much_added_mass)
+    if (added_mass > much_added_mass && first_step == 0) // a checkpoint keeps what was warned of
       screen.warning("mass scaling adds " + percent_text(added_mass) +
                      " to the mass of the bodies; look at what it does to their motion");
   }

@@ -137,7 +137,7 @@ namespace
           cylinder.cells_across  = 4;
           cylinder.cells_radial  = 2;
           cylinder.cells_axial   = 16;
-          cylinder.sector        = CylinderShape::Sector::full;
+          cylinder.sector        = Sector::full;
           cylinder.axial_grading = grading;
           Body body              = body_of(cylinder, integration);
           Model model({body}, {elastic()});

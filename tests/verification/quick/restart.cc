@@ -84,6 +84,14 @@ namespace
                      "Bodies/bar/Cylinder/Cells axial=12",
                      "Checkpoint/Interval=1e-6"},
                     1},
+      // The estimate of the assembled frequency, on scaled masses.
+      RestartedCase{"taylor_bar_quarter",
+                    {"Time/End=4e-6",
+                     "Time/Critical step=assembled",
+                     "Time/Mass scaling step=1e-7",
+                     "Bodies/bar/Cylinder/Cells axial=12",
+                     "Checkpoint/Interval=1e-6"},
+                    1},
       // Coupled friction that sticks and slips, warm-started.
       RestartedCase{"sliding_block", {"Time/End=0.02", "Checkpoint/Steps=60"}, 2},
       // Penalty springs with friction; bonds while they fail.
