@@ -202,12 +202,10 @@ namespace akmon
   void
   CheckpointWriter::reserve_space(const std::uint64_t n_bytes)
   {
-    const std::uint64_t begin = size_so_far();
+    reserved += n_bytes + metadata_bytes;
     run_on_root(comm, [&]() {
       const int descriptor = open(temporary.c_str(), O_WRONLY);
-      const int error      = descriptor < 0 ?
-                               errno :
-                               posix_fallocate(descriptor, begin, n_bytes + metadata_bytes);
+      const int error      = descriptor < 0 ? errno : posix_fallocate(descriptor, 0, reserved);
       if (descriptor >= 0)
         close(descriptor);
       if (error != 0)
@@ -216,15 +214,7 @@ namespace akmon
   }
 
 
-  std::uint64_t
-  CheckpointWriter::size_so_far() const
-  {
-    hsize_t size = 0;
-    check_hdf5(H5Fget_filesize(file, &size), "cannot write '" + path + "'");
-    return size;
-  }
-
-
+  // What was reserved and not used is cut off, or stays at the end, which readers do not mind.
   void
   CheckpointWriter::finish()
   {
@@ -232,11 +222,7 @@ namespace akmon
     try
       {
         check_hdf5(H5Fflush(file, H5F_SCOPE_GLOBAL), "cannot write '" + path + "'");
-        const std::uint64_t size = size_so_far();
         file.close();
-        // HDF5 does not know of what was reserved and not used.
-        if (this_mpi_process(comm) == 0)
-          std::filesystem::resize_file(temporary, size);
       }
     catch (const std::runtime_error &error)
       {
