@@ -202,8 +202,8 @@ namespace akmon
 
     // Forces along the offset make no couple.
     const auto &offset  = partner.projection.offset;
-    const double couple = has_friction ? offset.norm() :
-                                         (offset - partner.gap * partner.normal).norm();
+    const double couple = coupled && has_friction ? offset.norm() :
+                                                    (offset - partner.gap * partner.normal).norm();
     const bool levered  = couple > 1e-14 * pair.size &&
                          contact.gap_model == SurfaceContact::GapModel::point_to_segment;
     for (unsigned int k = 0; k < 4; ++k)

@@ -26,12 +26,13 @@ namespace akmon
       dealii::Patterns::Anything(),
       "Time step dt (time), or 'automatic': the safety factor times the critical step "
       "2/omega_max, estimated anew every step");
-    prm.declare_entry("Critical step",
-                      "cells",
-                      dealii::Patterns::Selection("cells|assembled"),
-                      "Whose largest frequency omega_max bounds the step: that of the cells taken "
-                      "alone, or of the assembled system, which is smaller but has to be estimated: "
-                      "worth it in runs of thousands of steps");
+    prm
+      .declare_entry("Critical step",
+                     "cells",
+                     dealii::Patterns::Selection("cells|assembled"),
+                     "Whose largest frequency omega_max bounds the step: that of the cells taken "
+                     "alone, or of the assembled system, which is smaller but has to be estimated: "
+                     "worth it in runs of thousands of steps");
     prm.declare_entry("Safety factor",
                       "0.9",
                       dealii::Patterns::Double(0., 1.),
