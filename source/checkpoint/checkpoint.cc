@@ -168,7 +168,10 @@ namespace akmon
     const Hdf5Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
     if (counts.size() > 1)
       check_hdf5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), what);
-    const std::size_t slab   = std::max<std::size_t>(1, slab_bytes / (width * sizeof(double)));
+    const std::size_t slab   = std::max<std::size_t>(1,
+                                                   slab_bytes /
+                                                     std::max<std::size_t>(1,
+                                                                           width * sizeof(double)));
     const std::size_t rounds = (*std::max_element(counts.begin(), counts.end()) + slab - 1) / slab;
     std::vector<double> values;
     std::string failure;
@@ -202,12 +205,10 @@ namespace akmon
   void
   CheckpointWriter::reserve_space(const std::uint64_t n_bytes)
   {
-    const std::uint64_t begin = size_so_far();
+    reserved += n_bytes + metadata_bytes;
     run_on_root(comm, [&]() {
       const int descriptor = open(temporary.c_str(), O_WRONLY);
-      const int error      = descriptor < 0 ?
-                               errno :
-                               posix_fallocate(descriptor, begin, n_bytes + metadata_bytes);
+      const int error      = descriptor < 0 ? errno : posix_fallocate(descriptor, 0, reserved);
       if (descriptor >= 0)
         close(descriptor);
       if (error != 0)
@@ -216,15 +217,7 @@ namespace akmon
   }
 
 
-  std::uint64_t
-  CheckpointWriter::size_so_far() const
-  {
-    hsize_t size = 0;
-    check_hdf5(H5Fget_filesize(file, &size), "cannot write '" + path + "'");
-    return size;
-  }
-
-
+  // What was reserved and not used is cut off, or stays at the end, which readers do not mind.
   void
   CheckpointWriter::finish()
   {
@@ -232,11 +225,7 @@ namespace akmon
     try
       {
         check_hdf5(H5Fflush(file, H5F_SCOPE_GLOBAL), "cannot write '" + path + "'");
-        const std::uint64_t size = size_so_far();
         file.close();
-        // HDF5 does not know of what was reserved and not used.
-        if (this_mpi_process(comm) == 0)
-          std::filesystem::resize_file(temporary, size);
       }
     catch (const std::runtime_error &error)
       {
@@ -329,7 +318,10 @@ namespace akmon
     const std::size_t width = size(name).second;
     const Hdf5Id dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, what);
     const Hdf5Id space(H5Dget_space(dataset), H5Sclose, what);
-    const std::size_t slab = std::max<std::size_t>(1, slab_bytes / (width * sizeof(double)));
+    const std::size_t slab = std::max<std::size_t>(1,
+                                                   slab_bytes /
+                                                     std::max<std::size_t>(1,
+                                                                           width * sizeof(double)));
     std::vector<double> values;
     for (std::size_t row = begin; row < end;)
       {

@@ -63,11 +63,8 @@ namespace akmon
     nodes.gather(state.x, x);
     nodes.gather(state.dx, dx);
     add_rigid_motions(dx, &RigidBody::increment_before);
-    x_reached = x; // as far as is known
-    for (unsigned int i = 0; i < nodes.first_common(); ++i)
-      x_reached.add(i, dx[i]);
     for (auto &search : searches)
-      search.find_pairs(state.x, x, x_reached, reach, travelled, pairs);
+      search.find_pairs(state.x, x, reach, travelled, pairs);
     for (unsigned int i = 0; i < bodies.size(); ++i)
       {
         const unsigned int first = nodes.first_common() + rigid_nodes.first[i];

@@ -105,9 +105,7 @@ namespace akmon
         partner.projection = project(point, segment(x, masters[partner.face]));
         if (partner.projection.feature == Projection::Feature::face &&
             partner.projection.offset.norm() <= reach && complete(x, slave, partner))
-          {
-            add_to_corner(first, make_pair(x, slave, partner), pairs);
-          }
+          add_to_corner(first, make_pair(x, slave, partner), pairs);
       }
   }
 } // namespace akmon

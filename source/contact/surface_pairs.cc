@@ -142,48 +142,6 @@ namespace akmon
   }
 
 
-  // A slave beyond the rim that the step leads through the surface within the rim: its partner is
-  // where it would come through, which keeps it in front.
-  bool
-  SurfaceSearch::lands_within_rim(const ContactNodes::Field &x,
-                                  const ContactNodes::Field &next,
-                                  const double reach,
-                                  const unsigned int slave,
-                                  Partner &partner) const
-  {
-    constexpr double in_front = -1e-6; // of the cell size, for rounding
-
-    const auto here = x[slaves[slave].number], there = next[slaves[slave].number];
-    const auto &outward = outwards[slave];
-    double best         = std::numeric_limits<double>::max();
-    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
-      {
-        const unsigned int f = candidates[i];
-        const auto &shape    = shapes[f];
-        const double longest = shape.radius + 2. * reach;
-        if ((here - shape.middle).norm_square() > longest * longest ||
-            shape.normal * outward > -opposed * shape.area * outward.norm())
-          continue;
-        const auto projection = project(there, segment(next, masters[f]));
-        if (projection.offset.norm() < best)
-          {
-            best               = projection.offset.norm();
-            partner.face       = f;
-            partner.projection = projection;
-          }
-      }
-    if (best == std::numeric_limits<double>::max() || !complete(next, slave, partner) ||
-        partner.gap > 0.)
-      return false;
-    auto &offset = partner.projection.offset;
-    offset       = here;
-    for (unsigned int k = 0; k < 4; ++k)
-      offset -= partner.projection.N[k] * x[masters[partner.face].nodes[k]];
-    partner.gap = partner.normal * offset;
-    return partner.gap >= in_front * slaves[slave].size;
-  }
-
-
   bool
   SurfaceSearch::gap_at(const ContactNodes::Field &x, const ContactPair &pair, double &gap) const
   {
@@ -245,8 +203,8 @@ namespace akmon
 
     // Forces along the offset make no couple.
     const auto &offset  = partner.projection.offset;
-    const double couple = has_friction ? offset.norm() :
-                                         (offset - partner.gap * partner.normal).norm();
+    const double couple = coupled && has_friction ? offset.norm() :
+                                                    (offset - partner.gap * partner.normal).norm();
     const bool levered  = couple > 1e-14 * pair.size &&
                          contact.gap_model == SurfaceContact::GapModel::point_to_segment;
     for (unsigned int k = 0; k < 4; ++k)
@@ -264,7 +222,6 @@ namespace akmon
   void
   SurfaceSearch::find_pairs(const NodalVector &positions,
                             const ContactNodes::Field &x,
-                            const ContactNodes::Field &next,
                             const double reach,
                             const double travelled,
                             std::vector<ContactPair> &pairs)
@@ -290,11 +247,7 @@ namespace akmon
         if (outside && distance > 2. * reach)
           rest_until[s] = travelled + 0.5 * (distance - reach);
         if (!complete(x, s, partner))
-          {
-            if (distance <= reach && lands_within_rim(x, next, reach, s, partner))
-              pairs.push_back(make_pair(x, s, partner));
-            continue;
-          }
+          continue;
         pairs.push_back(make_pair(x, s, partner));
         if (coupled && distance <= reach)
           {

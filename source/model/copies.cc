@@ -1,6 +1,7 @@
 #include <akmon/model/body.h>
 #include <akmon/model/copies.h>
 #include <akmon/parameters.h>
+#include <akmon/rigid/rotation.h>
 
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/utilities.h>
@@ -24,7 +25,7 @@ namespace akmon
 
 
     // Uniform among all rotations (Shoemake, Graphics Gems III, 1992): the matrix of a random unit
-    // quaternion (w, v), (w^2 - v.v) 1 + 2 v v + 2 w [v x].
+    // quaternion (w, v), 1 + 2 w [v x] + 2 [v x]^2.
     Tensor<2, 3>
     random_rotation(std::mt19937 &generator)
     {
@@ -32,17 +33,11 @@ namespace akmon
                    b     = 2. * numbers::PI * uniform(generator);
       const double small = std::sqrt(1. - part), large = std::sqrt(part);
       const Tensor<1, 3> v({small * std::sin(a), small * std::cos(a), large * std::sin(b)});
-      const double w = large * std::cos(b);
-      Tensor<2, 3> rotation;
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          for (unsigned int j = 0; j < 3; ++j)
-            rotation[i][j] += 2. * v[i] * v[j];
-          rotation[i][i] += w * w - v * v;
-          const unsigned int j = (i + 1) % 3, k = (i + 2) % 3;
-          rotation[j][k] -= 2. * w * v[i];
-          rotation[k][j] += 2. * w * v[i];
-        }
+      const double w        = large * std::cos(b);
+      const auto V          = cross_matrix(v);
+      Tensor<2, 3> rotation = 2. * (w * V + V * V);
+      for (unsigned int d = 0; d < 3; ++d)
+        rotation[d][d] += 1.;
       return rotation;
     }
 

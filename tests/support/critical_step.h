@@ -31,6 +31,21 @@ namespace akmon::test
                                                      CellIntegration::mean_dilatation};
 
 
+  // Critical steps of free meshes of cubes (references.md, section 7): nu = .3, dt c_d/h to four
+  // digits, full integration.
+  struct CubeMesh
+  {
+    std::array<unsigned int, 3> cells;
+    double dt;
+  };
+
+  inline constexpr CubeMesh cube_meshes[] = {{{{1, 1, 1}}, .7338},
+                                             {{{1, 1, 100}}, .8050},
+                                             {{{2, 2, 2}}, .9277},
+                                             {{{4, 4, 4}}, .9579},
+                                             {{{8, 8, 8}}, .9632}};
+
+
   struct Shape
   {
     std::array<double, 8> N;

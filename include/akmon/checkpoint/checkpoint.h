@@ -60,12 +60,10 @@ namespace akmon
     void
     reserve_space(const std::uint64_t n_bytes);
 
-    std::uint64_t
-    size_so_far() const;
-
     const std::string path, temporary;
     const MPI_Comm comm;
-    bool finished = false;
+    std::uint64_t reserved = 0; ///< of the file system for the file; bytes
+    bool finished          = false;
     Hdf5Id file;
   };
 

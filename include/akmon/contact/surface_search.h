@@ -63,14 +63,12 @@ namespace akmon
      * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
      * numbers. Slaves that are further from their partners than @p reach may be left out.
      * @param positions  the same configuration as a nodal vector
-     * @param next       where the last increment would lead from there
      * @param reach      what may be closed in this step; length
      * @param travelled  how far surfaces may have moved against each other so far; length
      */
     void
     find_pairs(const NodalVector &positions,
                const ContactNodes::Field &x,
-               const ContactNodes::Field &next,
                const double reach,
                const double travelled,
                std::vector<ContactPair> &pairs);
@@ -166,12 +164,6 @@ namespace akmon
     face_normal(const ContactNodes::Field &x, const Partner &partner) const;
     bool
     complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
-    bool
-    lands_within_rim(const ContactNodes::Field &x,
-                     const ContactNodes::Field &next,
-                     const double reach,
-                     const unsigned int slave,
-                     Partner &partner) const;
     ContactPair
     make_pair(const ContactNodes::Field &x, const unsigned int slave, const Partner &partner) const;
     void

@@ -216,7 +216,7 @@ end
       {},
       {"Time/Stop=1"},
       {"--set [Time] Stop = 1: there is no such key; allowed are Allow unstable step, "
-       "End, Safety factor, Smallest step, Step"}},
+       "Critical step, End, Mass scaling step, Safety factor, Smallest step, Step"}},
      {"set_unknown_section",
       {},
       {"Tyme/End=1"},

@@ -224,6 +224,8 @@ namespace
 
   // Bars that move across each other while they meet: slaves at the rim hang over their partner's
   // edge, and gaps close under friction. Forces at the two ends of such a gap must make no couple.
+  // The decoupled solver does without for friction, whose closed solution needs A_ii to be
+  // isotropic.
   TEST_P(OverhangingBars, keep_their_angular_momentum)
   {
     const std::string solver = std::get<0>(GetParam()), friction = std::get<1>(GetParam());
@@ -248,8 +250,9 @@ namespace
 
   INSTANTIATE_TEST_SUITE_P(Solvers,
                            OverhangingBars,
-                           testing::Combine(testing::Values("decoupled", "coupled"),
-                                            testing::Values("0", "0.3")));
+                           testing::Values(std::make_tuple("decoupled", "0"),
+                                           std::make_tuple("coupled", "0"),
+                                           std::make_tuple("coupled", "0.3")));
 
 
   INSTANTIATE_TEST_SUITE_P(
