@@ -11,12 +11,33 @@ namespace akmon
   namespace
   {
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
+
+
+    // Whether a factor for one face does for another.
+    bool
+    alike(const CoulombFace &a, const CoulombFace &b)
+    {
+      constexpr double turned = 0.9, stiffened = 2.; // cosine; ratio
+
+      if (a.normal != b.normal || a.tangential != b.tangential)
+        return false;
+      if (a.tangential != CoulombFace::Tangential::circle)
+        return true;
+      const double ratio = (1. + a.curvature) / (1. + b.curvature);
+      return std::abs(a.along * b.along) > turned && ratio < stiffened && ratio > 1. / stiffened;
+    }
+
+
+    bool
+    is_open(const CoulombFace &face)
+    {
+      return !face.normal && face.tangential == CoulombFace::Tangential::none;
+    }
   } // namespace
 
 
-  PairPreconditioner::PairPreconditioner(const Mobility &mobility, const double shift)
+  PairPreconditioner::PairPreconditioner(const Mobility &mobility)
     : mobility(mobility)
-    , shift(shift)
   {
   }
 
@@ -26,144 +47,189 @@ namespace akmon
                                 const Delassus &new_delassus,
                                 const double new_mass_factor)
   {
-    pairs              = new_pairs;
-    delassus           = &new_delassus;
-    const auto &scales = delassus->scale();
-    mass_factor        = new_mass_factor;
-    entries.clear();
-    rigid_share.assign(pairs.size(), 0.);
+    pairs       = new_pairs;
+    delassus    = &new_delassus;
+    mass_factor = new_mass_factor;
+    old         = true;
+    present.clear();
     for (unsigned int i = 0; i < pairs.size(); ++i)
-      for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
-        {
-          const unsigned int node = pairs[i]->nodes[k];
-          if (mobility.is_common(node))
-            {
-              const auto force = scales[i] * pairs[i]->at_node(k, pairs[i]->normal);
-              rigid_share[i] += force * (mobility[node] * force) / mass_factor;
-              continue;
-            }
-          const double coefficient = scales[i] * pairs[i]->weights[k] *
-                                     std::sqrt(mobility.inverse_mass(node) / mass_factor);
-          if (coefficient != 0.)
-            entries.push_back({node, i, coefficient});
-        }
-    std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
-      return a.node < b.node;
-    });
-    normal.old = tangential.old = true;
+      present.push_back(
+        {{pairs[i]->interface, pairs[i]->slot, pairs[i]->reversed, pairs[i]->slave_id}, i});
+    std::sort(present.begin(), present.end());
+    find_members_again();
+  }
+
+
+  void
+  PairPreconditioner::find_members_again()
+  {
+    member_of_pair.assign(pairs.size(), none);
+    for (unsigned int m = 0; m < members.size(); ++m)
+      {
+        const auto found = std::lower_bound(present.begin(),
+                                            present.end(),
+                                            std::make_pair(members[m].key, 0u));
+        members[m].pair  = found != present.end() && !(members[m].key < found->first) ?
+                             found->second :
+                             none;
+        if (members[m].pair != none)
+          member_of_pair[members[m].pair] = m;
+      }
   }
 
 
   void
   PairPreconditioner::forget()
   {
-    normal.valid = tangential.valid = false;
+    valid = false;
   }
 
 
   void
-  PairPreconditioner::reinit(const std::vector<CoulombFace> &new_faces)
+  PairPreconditioner::reinit(const std::vector<CoulombFace> &faces, const double new_shift)
   {
-    faces               = new_faces;
-    const auto set_rows = [&](Factor &factor, const auto &belongs) {
-      factor.members.clear();
-      for (unsigned int i = 0; i < faces.size(); ++i)
-        if (belongs(faces[i]) && delassus->scale()[i] > 0.)
-          factor.members.push_back(i);
-    };
-    set_rows(normal, [](const CoulombFace &f) { return f.normal; });
-    set_rows(tangential,
-             [](const CoulombFace &f) { return f.tangential == CoulombFace::Tangential::disc; });
-    update(normal, true);
-    update(tangential, false);
-  }
-
-
-  void
-  PairPreconditioner::update(Factor &factor, const bool along_normals)
-  {
-    std::vector<Key> keys;
-    keys.reserve(factor.members.size());
-    for (const unsigned int i : factor.members)
-      keys.push_back({pairs[i]->interface, pairs[i]->slot, pairs[i]->reversed, pairs[i]->slave_id});
-    if (factor.valid && keys == factor.keys)
+    if (shift == new_shift && still_serves(faces))
       return;
-    factor.keys = std::move(keys);
-    factor.old  = false;
-    factorize(factor, along_normals);
+    shift = new_shift;
+    make_members(faces);
+    make_entries();
+    factorize();
+    old = false;
+  }
+
+
+  bool
+  PairPreconditioner::still_serves(const std::vector<CoulombFace> &faces) const
+  {
+    if (!valid || std::any_of(members.begin(), members.end(), [](const Member &member) {
+          return member.pair == none;
+        }))
+      return false;
+    for (unsigned int i = 0; i < pairs.size(); ++i)
+      if (delassus->scale()[i] > 0. &&
+          !(member_of_pair[i] == none ? is_open(faces[i]) :
+                                        alike(members[member_of_pair[i]].face, faces[i])))
+        return false;
+    return true;
   }
 
 
   void
-  PairPreconditioner::factorize(Factor &factor, const bool along_normals)
+  PairPreconditioner::make_members(const std::vector<CoulombFace> &faces)
   {
-    const unsigned int n = factor.members.size();
-    row_of_pair.assign(pairs.size(), none);
-    for (unsigned int row = 0; row < n; ++row)
-      row_of_pair[factor.members[row]] = row;
+    members.clear();
+    n_rows = 0;
+    for (const auto &[key, i] : present)
+      {
+        if (is_open(faces[i]) || !(delassus->scale()[i] > 0.))
+          continue;
+        Member member{key, i, faces[i], n_rows, 0, {}};
+        const auto add = [&](const Tensor<1, 3> &direction) {
+          member.directions[member.n_rows++] = direction;
+        };
+        if (faces[i].normal)
+          add(Tensor<1, 3>({1., 0., 0.}));
+        if (faces[i].tangential == CoulombFace::Tangential::circle)
+          add(faces[i].along);
+        if (faces[i].tangential == CoulombFace::Tangential::disc)
+          {
+            add(Tensor<1, 3>({0., 1., 0.}));
+            add(Tensor<1, 3>({0., 0., 1.}));
+          }
+        n_rows += member.n_rows;
+        members.push_back(member);
+      }
+    find_members_again();
+  }
+
+
+  void
+  PairPreconditioner::make_entries()
+  {
+    entries.clear();
     triplets.clear();
-    for (unsigned int row = 0; row < n; ++row)
-      triplets.emplace_back(row, row, shift + rigid_share[factor.members[row]]);
+    for (const auto &member : members)
+      {
+        const ContactPair &pair = *pairs[member.pair];
+        const double s          = delassus->scale()[member.pair];
+        for (unsigned int j = 0; j < member.n_rows; ++j)
+          {
+            const auto force       = s * (member.directions[j] * delassus->frame(member.pair));
+            const unsigned int row = member.first_row + j;
+            double diagonal        = shift;
+            if (member.face.tangential == CoulombFace::Tangential::circle &&
+                member.directions[j] == member.face.along)
+              diagonal += member.face.curvature;
+            for (unsigned int k = 0; k < pair.n_nodes; ++k)
+              {
+                const unsigned int node = pair.nodes[k];
+                const auto at_node      = pair.at_node(k, force);
+                if (mobility.is_common(node))
+                  diagonal += at_node * (mobility[node] * at_node) / mass_factor;
+                else if (!mobility.is_held(node))
+                  entries.push_back({node, row, at_node});
+              }
+            triplets.emplace_back(row, row, diagonal);
+          }
+      }
+    std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
+      return std::tie(a.node, a.row) < std::tie(b.node, b.row);
+    });
+  }
+
+
+  void
+  PairPreconditioner::factorize()
+  {
+    constexpr double rounding = 1e-12; // of what is zero between orthogonal directions
+
     for (auto begin = entries.begin(); begin != entries.end();)
       {
-        auto end = begin;
-        while (end != entries.end() && end->node == begin->node)
-          ++end;
-        for (auto a = begin; a != end; ++a)
-          for (auto b = begin; b != end; ++b)
-            {
-              const unsigned int i = row_of_pair[a->pair], j = row_of_pair[b->pair];
-              if (i == none || j == none || i < j)
-                continue;
-              const double cosine = along_normals ?
-                                      pairs[a->pair]->normal * pairs[b->pair]->normal :
-                                      1.;
-              triplets.emplace_back(i, j, cosine * a->coefficient * b->coefficient);
-            }
+        const auto &W = mobility[begin->node];
+        auto end      = begin;
+        for (; end != entries.end() && end->node == begin->node; ++end)
+          {
+            const auto increment = W * end->force / mass_factor;
+            for (auto other = begin; other != end + 1; ++other)
+              {
+                const double value = other->force * increment;
+                if (std::abs(value) > rounding)
+                  triplets.emplace_back(end->row, other->row, value);
+              }
+          }
         begin = end;
       }
-    Eigen::SparseMatrix<double> matrix(n, n);
+    Eigen::SparseMatrix<double> matrix(n_rows, n_rows);
     matrix.setFromTriplets(triplets.begin(), triplets.end());
-    factor.cholesky.compute(matrix);
-    factor.valid = n == 0 || factor.cholesky.info() == Eigen::Success;
+    cholesky.compute(matrix);
+    valid = n_rows == 0 || cholesky.info() == Eigen::Success;
+    if (!valid)
+      {
+        members.clear();
+        member_of_pair.assign(pairs.size(), none);
+        n_rows = 0;
+      }
   }
 
 
   void
   PairPreconditioner::apply(const Vector &r, Vector &z)
   {
-    for (std::size_t i = 0; i < r.size(); ++i)
-      z[i] = r[i] - (faces[i].curvature / (1. + faces[i].curvature) * (faces[i].along * r[i])) *
-                      faces[i].along;
-
-    if (normal.valid && !normal.members.empty())
-      {
-        values.resize(normal.members.size());
-        for (unsigned int row = 0; row < normal.members.size(); ++row)
-          values[row] = r[normal.members[row]][0];
-        values = normal.cholesky.solve(values).eval();
-        for (unsigned int row = 0; row < normal.members.size(); ++row)
-          z[normal.members[row]][0] = values[row];
-      }
-    if (tangential.valid && !tangential.members.empty())
-      {
-        vectors.resize(tangential.members.size(), 3);
-        for (unsigned int row = 0; row < tangential.members.size(); ++row)
+    z = r;
+    if (n_rows == 0)
+      return;
+    values.setZero(n_rows);
+    for (const auto &member : members)
+      if (member.pair != none)
+        for (unsigned int j = 0; j < member.n_rows; ++j)
+          values[member.first_row + j] = member.directions[j] * r[member.pair];
+    const Eigen::VectorXd solution = cholesky.solve(values);
+    for (const auto &member : members)
+      if (member.pair != none)
+        for (unsigned int j = 0; j < member.n_rows; ++j)
           {
-            const unsigned int i = tangential.members[row];
-            const auto &F        = delassus->frame(i);
-            const auto r_tau     = r[i][1] * F[1] + r[i][2] * F[2];
-            for (unsigned int d = 0; d < 3; ++d)
-              vectors(row, d) = r_tau[d];
+            const unsigned int row = member.first_row + j;
+            z[member.pair] += (solution[row] - values[row]) * member.directions[j];
           }
-        vectors = tangential.cholesky.solve(vectors).eval();
-        for (unsigned int row = 0; row < tangential.members.size(); ++row)
-          {
-            const unsigned int i = tangential.members[row];
-            const Tensor<1, 3> solution({vectors(row, 0), vectors(row, 1), vectors(row, 2)});
-            z[i][1] = delassus->frame(i)[1] * solution;
-            z[i][2] = delassus->frame(i)[2] * solution;
-          }
-      }
   }
 } // namespace akmon

@@ -6,30 +6,36 @@
 #include <akmon/contact/pair.h>
 
 #include <Eigen/SparseCholesky>
+#include <array>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace akmon
 {
   /**
    * Inverse of the scaled Delassus operator in the free directions of its pairs, as far as this
-   * rank knows it: sparse Cholesky factors of the rank's own block, of A_nn on the pairs whose
-   * normal force is free and of the scalar sum_k w_ik w_jk / m*_k, which acts on each component of
-   * tangential forces, on those that stick. The latter leaves out that contact planes are turned
-   * against each other, and levers. Pairs that slip count with their diagonal. A is singular where
-   * constraints repeat each other; a small shift makes the factors regular. A rigid body couples
-   * all its pairs by six unknowns, which cost conjugate gradients as many iterations at most: it
-   * counts on the diagonal only.
+   * rank knows it: a sparse Cholesky factor of
    *
-   * Factors are kept as long as they belong to the same pairs and free directions, from step to
-   * step too: weights and normals that have changed a little make them no worse.
+   *     S = E^T (A + shift) E + curvatures
+   *
+   * of the rank's own pairs, where E are their free directions: the normal of a closed pair, both
+   * tangents where it sticks, the tangent of the circle where it slips. The Jacobian of the contact
+   * problem is S + E^T A (L - E): forces of slip follow normal forces. On a flat interface that
+   * rest acts on normal forces only and makes tangential motion only, its square is nothing, and
+   * GMRES needs two iterations.
+   *
+   * A is singular where constraints repeat each other; the shift makes factors regular. A rigid
+   * body couples all its pairs by six unknowns, which cost as many iterations at most: it counts on
+   * the diagonal only. Factors are kept, from step to step too, while the free directions are about
+   * the same: weights and normals that have changed a little make them no worse.
    */
   class PairPreconditioner
   {
   public:
     using Vector = std::vector<dealii::Tensor<1, 3>>;
 
-    /// @param shift  added to the unit diagonal: above what rounding makes of repeated constraints
-    PairPreconditioner(const Mobility &mobility, const double shift);
+    explicit PairPreconditioner(const Mobility &mobility);
 
     /**
      * The pairs of the coming solutions.
@@ -48,15 +54,18 @@ namespace akmon
     bool
     is_old() const
     {
-      return (normal.old && !normal.members.empty()) ||
-             (tangential.old && !tangential.members.empty());
+      return old && n_rows > 0;
     }
 
-    /// The faces whose free directions the coming applications are for.
+    /**
+     * What the coming applications are for.
+     * @param faces  with the free directions
+     * @param shift  added to the unit diagonal
+     */
     void
-    reinit(const std::vector<CoulombFace> &faces);
+    reinit(const std::vector<CoulombFace> &faces, const double shift);
 
-    /// z close to A^{-1} r in the free directions.
+    /// z close to S^{-1} r in the free directions.
     void
     apply(const Vector &r, Vector &z);
 
@@ -69,45 +78,56 @@ namespace akmon
       ContactNodes::Id slave;
 
       bool
-      operator==(const Key &other) const
+      operator<(const Key &other) const
       {
-        return interface == other.interface && slot == other.slot && reversed == other.reversed &&
-               slave == other.slave;
+        return std::tie(slave, interface, slot, reversed) <
+               std::tie(other.slave, other.interface, other.slot, other.reversed);
       }
     };
 
-    struct Factor
+    // A pair of the factor with its free directions.
+    struct Member
     {
-      std::vector<unsigned int> members; ///< numbers of the pairs, in order
-      std::vector<Key> keys;
-      Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky;
-      bool valid = false, old = false;
+      Key key;
+      unsigned int pair; ///< its number at present, if there still is one
+      CoulombFace face;
+      unsigned int first_row, n_rows;
+      std::array<dealii::Tensor<1, 3>, 3> directions; ///< of its rows, in the pair's frame
+    };
+
+    // What a unit force along a row does to a node: s_i N_ik e.
+    struct Entry
+    {
+      unsigned int node, row;
+      dealii::Tensor<1, 3> force;
     };
 
     void
-    update(Factor &factor, const bool along_normals);
+    find_members_again();
+    bool
+    still_serves(const std::vector<CoulombFace> &faces) const;
     void
-    factorize(Factor &factor, const bool along_normals);
+    make_members(const std::vector<CoulombFace> &faces);
+    void
+    make_entries();
+    void
+    factorize();
 
     const Mobility &mobility;
-    const double shift;
+    double shift = 0.;
     std::vector<ContactPair *> pairs;
     const Delassus *delassus = nullptr;
     double mass_factor       = 1.;
 
-    // Coefficients s_i w_ik m*_k^{-1/2} of the pairs, sorted by node.
-    struct Entry
-    {
-      unsigned int node, pair;
-      double coefficient;
-    };
-    std::vector<Entry> entries;
-    std::vector<double> rigid_share; ///< by pair: what rigid bodies add to the unit diagonal
-    std::vector<CoulombFace> faces;
-    std::vector<unsigned int> row_of_pair; ///< in the factor in work
+    std::vector<std::pair<Key, unsigned int>> present; ///< keys and numbers of the pairs, sorted
+    std::vector<Member> members;
+    std::vector<unsigned int> member_of_pair;
+    unsigned int n_rows = 0;
+    std::vector<Entry> entries; ///< sorted by node
     std::vector<Eigen::Triplet<double>> triplets;
-    Factor normal, tangential;
+    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky;
+    bool valid = false; ///< whether there is a factor
+    bool old   = false; ///< whether it was made in an earlier step
     Eigen::VectorXd values;
-    Eigen::MatrixX3d vectors;
   };
 } // namespace akmon
