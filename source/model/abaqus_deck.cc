@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 namespace akmon
@@ -93,6 +95,25 @@ namespace akmon
   AbaqusDeck::extract() const
   {
     return "*NODE\n" + nodes + "*ELEMENT, TYPE=C3D8\n" + elements + surfaces;
+  }
+
+
+  std::vector<dealii::Point<3>>
+  AbaqusDeck::points() const
+  {
+    std::vector<dealii::Point<3>> result;
+    std::istringstream lines(nodes);
+    for (std::string line; std::getline(lines, line);)
+      {
+        const auto entries = split_list(line);
+        if (entries.size() < 4)
+          throw std::runtime_error("node " + entries[0] + " does not have three coordinates");
+        dealii::Point<3> point;
+        for (unsigned int d = 0; d < 3; ++d)
+          point[d] = std::strtod(entries[d + 1].c_str(), nullptr);
+        result.push_back(point);
+      }
+    return result;
   }
 
 

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -118,8 +119,40 @@ namespace akmon
     }
 
 
+    // GridIn::read_abaqus rounds coordinates to nine digits and leaves out nodes of no element:
+    // take the vertices back to the places of the file, which are in the same order.
     void
-    read_abaqus(const std::string &name, dealii::GridIn<3> &grid_in)
+    restore_digits(const std::vector<dealii::Point<3>> &points,
+                   dealii::Triangulation<3> &triangulation)
+    {
+      constexpr double rounding = 1e-8; // of the largest coordinate
+      double largest            = 0.;
+      for (const auto &point : points)
+        for (unsigned int d = 0; d < 3; ++d)
+          largest = std::max(largest, std::abs(point[d]));
+
+      std::vector<dealii::Point<3>> places = triangulation.get_vertices();
+      auto next                            = points.begin();
+      for (auto &place : places)
+        {
+          const auto found = std::find_if(next, points.end(), [&](const dealii::Point<3> &point) {
+            return point.distance(place) <= rounding * largest;
+          });
+          if (found == points.end())
+            return;
+          place = *found;
+          next  = found + 1;
+        }
+      for (const auto &cell : triangulation.active_cell_iterators())
+        for (const unsigned int v : cell->vertex_indices())
+          cell->vertex(v) = places[cell->vertex_index(v)];
+    }
+
+
+    void
+    read_abaqus(const std::string &name,
+                dealii::GridIn<3> &grid_in,
+                dealii::Triangulation<3> &triangulation)
     {
       auto stream = open(name);
       const AbaqusDeck deck(stream);
@@ -127,6 +160,7 @@ namespace akmon
         throw Unusable{not_hexahedra(deck.n_other_elements(), deck.other_elements())};
       std::istringstream extract(deck.extract());
       grid_in.read_abaqus(extract);
+      restore_digits(deck.points(), triangulation);
     }
 
 
@@ -141,7 +175,7 @@ namespace akmon
       else if (type == ".VTK")
         grid_in.read_vtk(stream);
       else if (type == ".INP" && is_abaqus(name))
-        read_abaqus(name, grid_in);
+        read_abaqus(name, grid_in, triangulation);
       else if (type == ".INP" || type == ".UCD")
         grid_in.read_ucd(stream);
       else

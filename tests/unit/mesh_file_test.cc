@@ -117,6 +117,21 @@ namespace
   }
 
 
+  // To the last digit, with nodes in between that no element has.
+  TEST_F(MeshFile, AbaqusCoordinatesAreThoseOfTheFile)
+  {
+    const auto mesh = make(
+      file(write("a.inp",
+                 "*Node\n1, 0,0,0.1234567890123456\n2, 1,0,0.1234567890123456\n3, 9,9,9\n"
+                 "4, 1,1,0.1234567890123456\n5, 0,1,0.1234567890123456\n6, 0,0,1\n7, 1,0,1\n"
+                 "8, 1,1,1\n9, 0,1,1\n*Element, type=C3D8\n1, 1,2,4,5,6,7,8,9\n")));
+    double least = 1.;
+    for (const auto &vertex : mesh.vertices)
+      least = std::min(least, vertex[2]);
+    EXPECT_EQ(least, 0.1234567890123456);
+  }
+
+
   TEST_F(MeshFile, AbaqusSurfacesBecomeParts)
   {
     const std::string deck = "*Part, name=P\r\n*Node\n" + nodes +

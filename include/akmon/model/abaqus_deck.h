@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deal.II/base/point.h>
+
 #include <cstddef>
 #include <istream>
 #include <map>
@@ -32,6 +34,10 @@ namespace akmon
     /// its name ends in.
     std::string
     extract() const;
+
+    /// Places of the nodes in the order of the file.
+    std::vector<dealii::Point<3>>
+    points() const;
 
   private:
     void
