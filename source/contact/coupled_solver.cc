@@ -156,7 +156,7 @@ namespace akmon
   void
   CoupledSolver::solve_together(const ContactNodes::Field &dx_free)
   {
-    constexpr unsigned int patience = 3; // iterations that old factors may cost more than new ones
+    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
 
     const auto &s       = delassus.scale();
     const std::size_t n = coupled.size();

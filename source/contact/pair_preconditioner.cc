@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace akmon
 {
@@ -10,9 +9,6 @@ namespace akmon
 
   namespace
   {
-    constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
-
-
     // Whether a factor for one face does for another.
     bool
     alike(const CoulombFace &a, const CoulombFace &b)
@@ -25,13 +21,6 @@ namespace akmon
         return true;
       const double ratio = (1. + a.curvature) / (1. + b.curvature);
       return std::abs(a.along * b.along) > turned && ratio < stiffened && ratio > 1. / stiffened;
-    }
-
-
-    bool
-    is_open(const CoulombFace &face)
-    {
-      return !face.normal && face.tangential == CoulombFace::Tangential::none;
     }
   } // namespace
 
@@ -50,80 +39,179 @@ namespace akmon
     pairs       = new_pairs;
     delassus    = &new_delassus;
     mass_factor = new_mass_factor;
-    old         = true;
     present.clear();
     for (unsigned int i = 0; i < pairs.size(); ++i)
       present.push_back(
         {{pairs[i]->interface, pairs[i]->slot, pairs[i]->reversed, pairs[i]->slave_id}, i});
     std::sort(present.begin(), present.end());
-    find_members_again();
+    for (const auto &group : groups)
+      {
+        group->old = true;
+        for (auto &member : group->members)
+          {
+            const auto found = std::lower_bound(present.begin(),
+                                                present.end(),
+                                                std::make_pair(member.key, 0u));
+            member.pair = found != present.end() && !(member.key < found->first) ? found->second :
+                                                                                   none;
+          }
+      }
+    find_places();
   }
 
 
   void
-  PairPreconditioner::find_members_again()
+  PairPreconditioner::find_places()
   {
-    member_of_pair.assign(pairs.size(), none);
-    for (unsigned int m = 0; m < members.size(); ++m)
-      {
-        const auto found = std::lower_bound(present.begin(),
-                                            present.end(),
-                                            std::make_pair(members[m].key, 0u));
-        members[m].pair  = found != present.end() && !(members[m].key < found->first) ?
-                             found->second :
-                             none;
-        if (members[m].pair != none)
-          member_of_pair[members[m].pair] = m;
-      }
+    places.assign(pairs.size(), {none, none});
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      for (unsigned int m = 0; m < groups[g]->members.size(); ++m)
+        if (const unsigned int pair = groups[g]->members[m].pair; pair != none)
+          places[pair] = {g, m};
   }
 
 
   void
   PairPreconditioner::forget()
   {
-    valid = false;
+    groups.clear();
+    find_places();
+  }
+
+
+  bool
+  PairPreconditioner::is_old() const
+  {
+    return std::any_of(groups.begin(), groups.end(), [](const auto &group) { return group->old; });
   }
 
 
   void
   PairPreconditioner::reinit(const std::vector<CoulombFace> &faces, const double new_shift)
   {
-    if (shift == new_shift && still_serves(faces))
-      return;
+    if (shift != new_shift)
+      forget();
     shift = new_shift;
-    make_members(faces);
-    make_entries();
-    factorize();
-    old = false;
+    if (still_serve(faces))
+      return;
+    divide(faces);
+    std::vector<std::unique_ptr<Group>> new_groups;
+    for (const auto &list : lists)
+      {
+        const unsigned int old = places[list.front()].group;
+        new_groups.push_back(old != none && groups[old] && serves(*groups[old], list, faces) ?
+                               std::move(groups[old]) :
+                               make_group(list, faces));
+      }
+    groups = std::move(new_groups);
+    find_places();
   }
 
 
   bool
-  PairPreconditioner::still_serves(const std::vector<CoulombFace> &faces) const
+  PairPreconditioner::is_closed(const unsigned int pair,
+                                const std::vector<CoulombFace> &faces) const
   {
-    if (!valid || std::any_of(members.begin(), members.end(), [](const Member &member) {
-          return member.pair == none;
-        }))
-      return false;
+    return delassus->scale()[pair] > 0. &&
+           (faces[pair].normal || faces[pair].tangential != CoulombFace::Tangential::none);
+  }
+
+
+  // Whether all groups do as they are.
+  bool
+  PairPreconditioner::still_serve(const std::vector<CoulombFace> &faces) const
+  {
+    for (const auto &group : groups)
+      for (const auto &member : group->members)
+        if (member.pair == none)
+          return false;
     for (unsigned int i = 0; i < pairs.size(); ++i)
-      if (delassus->scale()[i] > 0. &&
-          !(member_of_pair[i] == none ? is_open(faces[i]) :
-                                        alike(members[member_of_pair[i]].face, faces[i])))
-        return false;
+      {
+        const auto [g, m] = places[i];
+        if (is_closed(i, faces) != (g != none) ||
+            (g != none && !alike(groups[g]->members[m].face, faces[i])))
+          return false;
+      }
     return true;
   }
 
 
+  // Lists of closed pairs that share nodes, directly or through others, in the order of their keys.
   void
-  PairPreconditioner::make_members(const std::vector<CoulombFace> &faces)
+  PairPreconditioner::divide(const std::vector<CoulombFace> &faces)
   {
-    members.clear();
-    n_rows = 0;
-    for (const auto &[key, i] : present)
+    parents.resize(pairs.size());
+    pair_at_node.assign(pair_at_node.size(), none);
+    for (unsigned int i = 0; i < pairs.size(); ++i)
       {
-        if (is_open(faces[i]) || !(delassus->scale()[i] > 0.))
+        parents[i] = i;
+        if (!is_closed(i, faces))
           continue;
-        Member member{key, i, faces[i], n_rows, 0, {}};
+        for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
+          {
+            const unsigned int node = pairs[i]->nodes[k];
+            if (mobility.is_common(node) || mobility.is_held(node))
+              continue;
+            if (node >= pair_at_node.size())
+              pair_at_node.resize(node + 1, none);
+            if (pair_at_node[node] == none)
+              pair_at_node[node] = i;
+            parents[root_of(i)] = root_of(pair_at_node[node]);
+          }
+      }
+    lists.clear();
+    std::vector<unsigned int> list_of_root(pairs.size(), none);
+    for (const auto &[key, i] : present)
+      if (is_closed(i, faces))
+        {
+          unsigned int &list = list_of_root[root_of(i)];
+          if (list == none)
+            {
+              list = lists.size();
+              lists.emplace_back();
+            }
+          lists[list].push_back(i);
+        }
+  }
+
+
+  unsigned int
+  PairPreconditioner::root_of(unsigned int pair)
+  {
+    while (parents[pair] != pair)
+      pair = parents[pair] = parents[parents[pair]];
+    return pair;
+  }
+
+
+  bool
+  PairPreconditioner::serves(const Group &group,
+                             const std::vector<unsigned int> &list,
+                             const std::vector<CoulombFace> &faces) const
+  {
+    return std::equal(group.members.begin(),
+                      group.members.end(),
+                      list.begin(),
+                      list.end(),
+                      [&](const Member &member, const unsigned int pair) {
+                        return member.pair == pair && alike(member.face, faces[pair]);
+                      });
+  }
+
+
+  std::unique_ptr<PairPreconditioner::Group>
+  PairPreconditioner::make_group(const std::vector<unsigned int> &list,
+                                 const std::vector<CoulombFace> &faces)
+  {
+    auto group = std::make_unique<Group>();
+    for (const unsigned int i : list)
+      {
+        Member member{{pairs[i]->interface, pairs[i]->slot, pairs[i]->reversed, pairs[i]->slave_id},
+                      i,
+                      faces[i],
+                      group->n_rows,
+                      0,
+                      {}};
         const auto add = [&](const Tensor<1, 3> &direction) {
           member.directions[member.n_rows++] = direction;
         };
@@ -136,19 +224,21 @@ namespace akmon
             add(Tensor<1, 3>({0., 1., 0.}));
             add(Tensor<1, 3>({0., 0., 1.}));
           }
-        n_rows += member.n_rows;
-        members.push_back(member);
+        group->n_rows += member.n_rows;
+        group->members.push_back(member);
       }
-    find_members_again();
+    make_entries(*group);
+    factorize(*group);
+    return group;
   }
 
 
   void
-  PairPreconditioner::make_entries()
+  PairPreconditioner::make_entries(const Group &group)
   {
     entries.clear();
     triplets.clear();
-    for (const auto &member : members)
+    for (const auto &member : group.members)
       {
         const ContactPair &pair = *pairs[member.pair];
         const double s          = delassus->scale()[member.pair];
@@ -179,7 +269,7 @@ namespace akmon
 
 
   void
-  PairPreconditioner::factorize()
+  PairPreconditioner::factorize(Group &group)
   {
     constexpr double rounding = 1e-12; // of what is zero between orthogonal directions
 
@@ -199,16 +289,7 @@ namespace akmon
           }
         begin = end;
       }
-    Eigen::SparseMatrix<double> matrix(n_rows, n_rows);
-    matrix.setFromTriplets(triplets.begin(), triplets.end());
-    cholesky.compute(matrix);
-    valid = n_rows == 0 || cholesky.info() == Eigen::Success;
-    if (!valid)
-      {
-        members.clear();
-        member_of_pair.assign(pairs.size(), none);
-        n_rows = 0;
-      }
+    group.valid = group.cholesky.compute(group.n_rows, triplets);
   }
 
 
@@ -216,20 +297,22 @@ namespace akmon
   PairPreconditioner::apply(const Vector &r, Vector &z)
   {
     z = r;
-    if (n_rows == 0)
-      return;
-    values.setZero(n_rows);
-    for (const auto &member : members)
-      if (member.pair != none)
-        for (unsigned int j = 0; j < member.n_rows; ++j)
-          values[member.first_row + j] = member.directions[j] * r[member.pair];
-    const Eigen::VectorXd solution = cholesky.solve(values);
-    for (const auto &member : members)
-      if (member.pair != none)
-        for (unsigned int j = 0; j < member.n_rows; ++j)
-          {
-            const unsigned int row = member.first_row + j;
-            z[member.pair] += (solution[row] - values[row]) * member.directions[j];
-          }
+    for (const auto &group : groups)
+      {
+        if (!group->valid)
+          continue;
+        values.resize(group->n_rows);
+        for (const auto &member : group->members)
+          for (unsigned int j = 0; j < member.n_rows; ++j)
+            values[member.first_row + j] = member.directions[j] * r[member.pair];
+        solution = values;
+        group->cholesky.solve_in_place(solution);
+        for (const auto &member : group->members)
+          for (unsigned int j = 0; j < member.n_rows; ++j)
+            {
+              const unsigned int row = member.first_row + j;
+              z[member.pair] += (solution[row] - values[row]) * member.directions[j];
+            }
+      }
   }
 } // namespace akmon

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <akmon/contact/cholesky_factor.h>
 #include <akmon/contact/coulomb_faces.h>
 #include <akmon/contact/delassus.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/pair.h>
 
-#include <Eigen/SparseCholesky>
 #include <array>
+#include <limits>
+#include <memory>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -15,7 +17,7 @@ namespace akmon
 {
   /**
    * Inverse of the scaled Delassus operator in the free directions of its pairs, as far as this
-   * rank knows it: a sparse Cholesky factor of
+   * rank knows it: Cholesky factors of
    *
    *     S = E^T (A + shift) E + curvatures
    *
@@ -27,8 +29,9 @@ namespace akmon
    *
    * A is singular where constraints repeat each other; the shift makes factors regular. A rigid
    * body couples all its pairs by six unknowns, which cost as many iterations at most: it counts on
-   * the diagonal only. Factors are kept, from step to step too, while the free directions are about
-   * the same: weights and normals that have changed a little make them no worse.
+   * the diagonal only. Pairs that share nodes, directly or through others, are a group with a
+   * factor of its own, which is kept, from step to step too, while its free directions are about
+   * the same: weights and normals that have changed a little make it no worse.
    */
   class PairPreconditioner
   {
@@ -52,10 +55,7 @@ namespace akmon
 
     /// Whether factors of an earlier step are in use.
     bool
-    is_old() const
-    {
-      return old && n_rows > 0;
-    }
+    is_old() const;
 
     /**
      * What the coming applications are for.
@@ -85,7 +85,7 @@ namespace akmon
       }
     };
 
-    // A pair of the factor with its free directions.
+    // A pair of a factor with its free directions.
     struct Member
     {
       Key key;
@@ -95,6 +95,16 @@ namespace akmon
       std::array<dealii::Tensor<1, 3>, 3> directions; ///< of its rows, in the pair's frame
     };
 
+    // Pairs that share nodes, and their factor.
+    struct Group
+    {
+      std::vector<Member> members; ///< sorted by key
+      unsigned int n_rows = 0;
+      CholeskyFactor cholesky;
+      bool valid = false; ///< whether S was positive definite
+      bool old   = false; ///< whether it was made in an earlier step
+    };
+
     // What a unit force along a row does to a node: s_i N_ik e.
     struct Entry
     {
@@ -102,16 +112,28 @@ namespace akmon
       dealii::Tensor<1, 3> force;
     };
 
-    void
-    find_members_again();
+    static constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
+
     bool
-    still_serves(const std::vector<CoulombFace> &faces) const;
+    is_closed(const unsigned int pair, const std::vector<CoulombFace> &faces) const;
+    bool
+    still_serve(const std::vector<CoulombFace> &faces) const;
     void
-    make_members(const std::vector<CoulombFace> &faces);
+    divide(const std::vector<CoulombFace> &faces);
+    unsigned int
+    root_of(unsigned int pair);
+    bool
+    serves(const Group &group,
+           const std::vector<unsigned int> &list,
+           const std::vector<CoulombFace> &faces) const;
+    std::unique_ptr<Group>
+    make_group(const std::vector<unsigned int> &list, const std::vector<CoulombFace> &faces);
     void
-    make_entries();
+    make_entries(const Group &group);
     void
-    factorize();
+    factorize(Group &group);
+    void
+    find_places();
 
     const Mobility &mobility;
     double shift = 0.;
@@ -119,15 +141,20 @@ namespace akmon
     const Delassus *delassus = nullptr;
     double mass_factor       = 1.;
 
+    // Where a pair is a member.
+    struct Place
+    {
+      unsigned int group, member;
+    };
+
     std::vector<std::pair<Key, unsigned int>> present; ///< keys and numbers of the pairs, sorted
-    std::vector<Member> members;
-    std::vector<unsigned int> member_of_pair;
-    unsigned int n_rows = 0;
-    std::vector<Entry> entries; ///< sorted by node
-    std::vector<Eigen::Triplet<double>> triplets;
-    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky;
-    bool valid = false; ///< whether there is a factor
-    bool old   = false; ///< whether it was made in an earlier step
-    Eigen::VectorXd values;
+    std::vector<std::unique_ptr<Group>> groups;
+    std::vector<Place> places;                    ///< by pair
+    std::vector<unsigned int> parents;            ///< by pair, while they are divided
+    std::vector<unsigned int> pair_at_node;       ///< by contact number, while they are divided
+    std::vector<std::vector<unsigned int>> lists; ///< pairs of the groups
+    std::vector<Entry> entries;                   ///< of the group in work, sorted by node
+    CholeskyFactor::Entries triplets;             ///< of the group in work
+    Eigen::VectorXd values, solution;
   };
 } // namespace akmon

@@ -28,6 +28,7 @@ namespace
     EXPECT_LE(angular, 1e-12);
     EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-6);
     EXPECT_LE(largest_of(history["energy_error"]), 1e-3);
+    EXPECT_LE(mean_iterations(history), 30.);
 
     const auto &friction = history["friction_dissipation"];
     double least         = 0.;
