@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -62,6 +63,7 @@ namespace akmon
     nodes.gather(state.x, x);
     nodes.gather(state.dx, dx);
     add_rigid_motions(dx, &RigidBody::increment_before);
+    const auto begin = std::chrono::steady_clock::now();
     for (auto &search : searches)
       search.find_pairs(state.x, x, reach, travelled, pairs);
     for (unsigned int i = 0; i < bodies.size(); ++i)
@@ -73,6 +75,8 @@ namespace akmon
             if (touch.get_interface() == contacts.size() + i)
               touch.find_pairs(nodes, rigid_nodes, reversed, reach_of_obstacles, pairs);
       }
+    seconds_of_search += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+                           .count();
     if (solver.type == ContactSolver::Type::coupled)
       warm_start(previous);
   }

@@ -39,7 +39,7 @@ namespace akmon
     , nodes(nodes)
     , delassus_of_all(nodes, mobility)
     , delassus(nodes, mobility)
-    , preconditioner(mobility, compliance)
+    , preconditioner(nodes, mobility, compliance)
     , newton(delassus, preconditioner, nodes.get_communicator())
   {
   }

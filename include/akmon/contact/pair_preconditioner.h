@@ -6,19 +6,22 @@
 #include <akmon/contact/pair.h>
 
 #include <Eigen/SparseCholesky>
+#include <tuple>
 #include <vector>
 
 namespace akmon
 {
   /**
-   * Inverse of the scaled Delassus operator in the free directions of its pairs, as far as this
-   * rank knows it: sparse Cholesky factors of the rank's own block, of A_nn on the pairs whose
-   * normal force is free and of the scalar sum_k w_ik w_jk / m*_k, which acts on each component of
-   * tangential forces, on those that stick. The latter leaves out that contact planes are turned
-   * against each other, and levers. Pairs that slip count with their diagonal. A is singular where
-   * constraints repeat each other; a small shift makes the factors regular. A rigid body couples
-   * all its pairs by six unknowns, which cost conjugate gradients as many iterations at most: it
-   * counts on the diagonal only.
+   * Inverse of the scaled Delassus operator in the free directions of its pairs: sparse Cholesky
+   * factors of A_nn on the pairs whose normal force is free and of the scalar
+   * sum_k w_ik w_jk / m*_k, which acts on each component of tangential forces, on those that stick.
+   * The latter leaves out that contact planes are turned against each other, and levers. Pairs that
+   * slip count with their diagonal. A is singular where constraints repeat each other; a small
+   * shift makes the factors regular. A rigid body couples all its pairs by six unknowns, which cost
+   * GMRES as many iterations at most: it counts on the diagonal only.
+   *
+   * Every rank has the factors of all free pairs and computes the same with them, so that
+   * iterations, and with them solutions, are those of one rank. All members are collective.
    *
    * Factors are kept as long as they belong to the same pairs and free directions, from step to
    * step too: weights and normals that have changed a little make them no worse.
@@ -29,7 +32,7 @@ namespace akmon
     using Vector = std::vector<dealii::Tensor<1, 3>>;
 
     /// @param shift  added to the unit diagonal: above what rounding makes of repeated constraints
-    PairPreconditioner(const Mobility &mobility, const double shift);
+    PairPreconditioner(const ContactNodes &nodes, const Mobility &mobility, const double shift);
 
     /**
      * The pairs of the coming solutions.
@@ -48,8 +51,7 @@ namespace akmon
     bool
     is_old() const
     {
-      return (normal.old && !normal.members.empty()) ||
-             (tangential.old && !tangential.members.empty());
+      return (normal.old && !normal.rows.empty()) || (tangential.old && !tangential.rows.empty());
     }
 
     /// The faces whose free directions the coming applications are for.
@@ -61,25 +63,43 @@ namespace akmon
     apply(const Vector &r, Vector &z);
 
   private:
-    // Which pair a row of the operator belongs to, beyond the step.
+    // Which pair a row of the operator belongs to, beyond the step; the order of rows.
     struct Key
     {
-      unsigned int interface, slot;
+      unsigned int interface;
       bool reversed;
       ContactNodes::Id slave;
+      unsigned int slot;
 
-      bool
-      operator==(const Key &other) const
+      std::tuple<unsigned int, bool, ContactNodes::Id, unsigned int>
+      values() const
       {
-        return interface == other.interface && slot == other.slot && reversed == other.reversed &&
-               slave == other.slave;
+        return {interface, reversed, slave, slot};
       }
+    };
+
+    // What the matrix has of a pair: its diagonal without entries.
+    struct Row
+    {
+      Key key;
+      double diagonal;
+      dealii::Tensor<1, 3> normal;
+    };
+
+    // Coefficient s_i w_ik m*_k^{-1/2} of a row at a node.
+    struct Entry
+    {
+      ContactNodes::Id node;
+      unsigned int row;
+      double coefficient;
     };
 
     struct Factor
     {
-      std::vector<unsigned int> members; ///< numbers of the pairs, in order
-      std::vector<Key> keys;
+      std::vector<unsigned int> members; ///< numbers of this rank's pairs, in order
+      std::vector<Key> keys;             ///< of the members
+      std::vector<unsigned int> rows; ///< in the matrix, of the members of one rank after another
+      std::vector<int> n_members;     ///< of the ranks
       Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky;
       bool valid = false, old = false;
     };
@@ -88,26 +108,23 @@ namespace akmon
     update(Factor &factor, const bool along_normals);
     void
     factorize(Factor &factor, const bool along_normals);
+    void
+    gather_rows(Factor &factor);
+    void
+    solve(const Factor &factor, const unsigned int n_columns);
 
+    const ContactNodes &nodes;
     const Mobility &mobility;
     const double shift;
     std::vector<ContactPair *> pairs;
     const Delassus *delassus = nullptr;
     double mass_factor       = 1.;
-
-    // Coefficients s_i w_ik m*_k^{-1/2} of the pairs, sorted by node.
-    struct Entry
-    {
-      unsigned int node, pair;
-      double coefficient;
-    };
-    std::vector<Entry> entries;
-    std::vector<double> rigid_share; ///< by pair: what rigid bodies add to the unit diagonal
     std::vector<CoulombFace> faces;
-    std::vector<unsigned int> row_of_pair; ///< in the factor in work
+    std::vector<Row> rows;      ///< of the factor in work, of all ranks
+    std::vector<Entry> entries; ///< of these rows
     std::vector<Eigen::Triplet<double>> triplets;
     Factor normal, tangential;
-    Eigen::VectorXd values;
-    Eigen::MatrixX3d vectors;
+    std::vector<dealii::Tensor<1, 3>> values, all_values; ///< of this rank's members, of all rows
+    Eigen::MatrixXd vectors;
   };
 } // namespace akmon
