@@ -4,6 +4,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <tuple>
@@ -63,6 +64,7 @@ namespace akmon
     nodes.gather(state.x, x);
     nodes.gather(state.dx, dx);
     add_rigid_motions(dx, &RigidBody::increment_before);
+    const auto begin = std::chrono::steady_clock::now();
     for (auto &search : searches)
       search.find_pairs(state.x, x, reach, travelled, pairs);
     for (unsigned int i = 0; i < bodies.size(); ++i)
@@ -79,6 +81,8 @@ namespace akmon
                                  pairs.end(),
                                  [&](const ContactPair &pair) { return bonds->hold(pair); }),
                   pairs.end());
+    seconds_of_search += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+                           .count();
     if (solver.type != ContactSolver::Type::decoupled)
       warm_start(previous);
   }

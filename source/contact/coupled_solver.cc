@@ -40,7 +40,7 @@ namespace akmon
     , nodes(nodes)
     , delassus_of_all(nodes, mobility, bonds)
     , delassus(nodes, mobility, bonds)
-    , preconditioner(mobility)
+    , preconditioner(nodes, mobility)
     , newton(delassus, preconditioner, nodes.get_communicator())
   {
   }

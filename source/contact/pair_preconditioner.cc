@@ -1,14 +1,23 @@
 #include <akmon/contact/pair_preconditioner.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <type_traits>
 
 namespace akmon
 {
-  using dealii::Tensor;
+  using namespace dealii;
 
   namespace
   {
+    constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
+
+
     // Whether a factor for one face does for another.
     bool
     alike(const CoulombFace &a, const CoulombFace &b)
@@ -22,11 +31,76 @@ namespace akmon
       const double ratio = (1. + a.curvature) / (1. + b.curvature);
       return std::abs(a.along * b.along) > turned && ratio < stiffened && ratio > 1. / stiffened;
     }
+
+
+    std::vector<int>
+    numbers_of_items(const std::size_t n, const MPI_Comm communicator)
+    {
+      std::vector<int> numbers(Utilities::MPI::n_mpi_processes(communicator));
+      const int own = n;
+      MPI_Allgather(&own, 1, MPI_INT, numbers.data(), 1, MPI_INT, communicator);
+      return numbers;
+    }
+
+
+    // The items of all ranks, one rank after another.
+    template <typename Item>
+    void
+    gather(const std::vector<Item> &own,
+           const std::vector<int> &numbers,
+           std::vector<Item> &all,
+           const MPI_Comm communicator)
+    {
+      static_assert(std::is_trivially_copyable_v<Item>);
+
+      std::vector<int> sizes, offsets;
+      int total = 0;
+      for (const int n : numbers)
+        {
+          offsets.push_back(total * sizeof(Item));
+          sizes.push_back(n * sizeof(Item));
+          total += n;
+        }
+      all.resize(total);
+      MPI_Allgatherv(own.data(),
+                     own.size() * sizeof(Item),
+                     MPI_BYTE,
+                     all.data(),
+                     sizes.data(),
+                     offsets.data(),
+                     MPI_BYTE,
+                     communicator);
+    }
+
+
+    // Which set an element is in, while sets are united.
+    unsigned int
+    root_of(std::vector<unsigned int> &parents, unsigned int i)
+    {
+      while (parents[i] != i)
+        i = parents[i] = parents[parents[i]];
+      return i;
+    }
   } // namespace
 
 
-  PairPreconditioner::PairPreconditioner(const Mobility &mobility)
-    : mobility(mobility)
+  PairPreconditioner::Directions::Directions(const CoulombFace &face)
+  {
+    if (face.normal)
+      e[n++] = Tensor<1, 3>({1., 0., 0.});
+    if (face.tangential == CoulombFace::Tangential::circle)
+      e[n++] = face.along;
+    if (face.tangential == CoulombFace::Tangential::disc)
+      {
+        e[n++] = Tensor<1, 3>({0., 1., 0.});
+        e[n++] = Tensor<1, 3>({0., 0., 1.});
+      }
+  }
+
+
+  PairPreconditioner::PairPreconditioner(const ContactNodes &nodes, const Mobility &mobility)
+    : nodes(nodes)
+    , mobility(mobility)
   {
   }
 
@@ -39,35 +113,8 @@ namespace akmon
     pairs       = new_pairs;
     delassus    = &new_delassus;
     mass_factor = new_mass_factor;
-    present.clear();
-    for (unsigned int i = 0; i < pairs.size(); ++i)
-      present.push_back(
-        {{pairs[i]->interface, pairs[i]->slot, pairs[i]->reversed, pairs[i]->slave_id}, i});
-    std::sort(present.begin(), present.end());
     for (const auto &group : groups)
-      {
-        group->old = true;
-        for (auto &member : group->members)
-          {
-            const auto found = std::lower_bound(present.begin(),
-                                                present.end(),
-                                                std::make_pair(member.key, 0u));
-            member.pair = found != present.end() && !(member.key < found->first) ? found->second :
-                                                                                   none;
-          }
-      }
-    find_places();
-  }
-
-
-  void
-  PairPreconditioner::find_places()
-  {
-    places.assign(pairs.size(), {none, none});
-    for (unsigned int g = 0; g < groups.size(); ++g)
-      for (unsigned int m = 0; m < groups[g]->members.size(); ++m)
-        if (const unsigned int pair = groups[g]->members[m].pair; pair != none)
-          places[pair] = {g, m};
+      group->old = true;
   }
 
 
@@ -75,7 +122,6 @@ namespace akmon
   PairPreconditioner::forget()
   {
     groups.clear();
-    find_places();
   }
 
 
@@ -92,19 +138,15 @@ namespace akmon
     if (shift != new_shift)
       forget();
     shift = new_shift;
-    if (still_serve(faces))
+    own.clear();
+    for (unsigned int i = 0; i < pairs.size(); ++i)
+      if (is_closed(i, faces))
+        own.push_back(i);
+    if (!groups.empty() &&
+        Utilities::MPI::min(int(still_serve(faces)), nodes.get_communicator()) == 1)
       return;
-    divide(faces);
-    std::vector<std::unique_ptr<Group>> new_groups;
-    for (const auto &list : lists)
-      {
-        const unsigned int old = places[list.front()].group;
-        new_groups.push_back(old != none && groups[old] && serves(*groups[old], list, faces) ?
-                               std::move(groups[old]) :
-                               make_group(list, faces));
-      }
-    groups = std::move(new_groups);
-    find_places();
+    gather_closed_pairs(faces);
+    make_groups(divide());
   }
 
 
@@ -117,177 +159,218 @@ namespace akmon
   }
 
 
-  // Whether all groups do as they are.
+  // Whether all groups do as they are for this rank's pairs, in the same order.
   bool
-  PairPreconditioner::still_serve(const std::vector<CoulombFace> &faces) const
+  PairPreconditioner::still_serve(const std::vector<CoulombFace> &faces)
   {
-    for (const auto &group : groups)
-      for (const auto &member : group->members)
-        if (member.pair == none)
-          return false;
-    for (unsigned int i = 0; i < pairs.size(); ++i)
-      {
-        const auto [g, m] = places[i];
-        if (is_closed(i, faces) != (g != none) ||
-            (g != none && !alike(groups[g]->members[m].face, faces[i])))
-          return false;
-      }
-    return true;
-  }
-
-
-  // Lists of closed pairs that share nodes, directly or through others, in the order of their keys.
-  void
-  PairPreconditioner::divide(const std::vector<CoulombFace> &faces)
-  {
-    parents.resize(pairs.size());
-    pair_at_node.assign(pair_at_node.size(), none);
-    for (unsigned int i = 0; i < pairs.size(); ++i)
-      {
-        parents[i] = i;
-        if (!is_closed(i, faces))
-          continue;
-        for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
-          {
-            const unsigned int node = pairs[i]->nodes[k];
-            if (mobility.is_common(node) || mobility.is_held(node))
-              continue;
-            if (node >= pair_at_node.size())
-              pair_at_node.resize(node + 1, none);
-            if (pair_at_node[node] == none)
-              pair_at_node[node] = i;
-            parents[root_of(i)] = root_of(pair_at_node[node]);
-          }
-      }
-    lists.clear();
-    std::vector<unsigned int> list_of_root(pairs.size(), none);
-    for (const auto &[key, i] : present)
-      if (is_closed(i, faces))
-        {
-          unsigned int &list = list_of_root[root_of(i)];
-          if (list == none)
-            {
-              list = lists.size();
-              lists.emplace_back();
-            }
-          lists[list].push_back(i);
-        }
-  }
-
-
-  unsigned int
-  PairPreconditioner::root_of(unsigned int pair)
-  {
-    while (parents[pair] != pair)
-      pair = parents[pair] = parents[parents[pair]];
-    return pair;
-  }
-
-
-  bool
-  PairPreconditioner::serves(const Group &group,
-                             const std::vector<unsigned int> &list,
-                             const std::vector<CoulombFace> &faces) const
-  {
-    return std::equal(group.members.begin(),
-                      group.members.end(),
-                      list.begin(),
-                      list.end(),
-                      [&](const Member &member, const unsigned int pair) {
-                        return member.pair == pair && alike(member.face, faces[pair]);
+    const auto first = closed.begin() + first_own;
+    const auto last  = first + n_closed[Utilities::MPI::this_mpi_process(nodes.get_communicator())];
+    return std::equal(own.begin(),
+                      own.end(),
+                      first,
+                      last,
+                      [&](const unsigned int i, const ClosedPair &other) {
+                        const ContactPair &pair = *pairs[i];
+                        return Key(pair.slave_id, pair.interface, pair.slot, pair.reversed) ==
+                                 other.key() &&
+                               alike(other.face, faces[i]);
                       });
   }
 
 
-  std::unique_ptr<PairPreconditioner::Group>
-  PairPreconditioner::make_group(const std::vector<unsigned int> &list,
-                                 const std::vector<CoulombFace> &faces)
+  void
+  PairPreconditioner::gather_closed_pairs(const std::vector<CoulombFace> &faces)
   {
-    auto group = std::make_unique<Group>();
-    for (const unsigned int i : list)
+    std::vector<ClosedPair> own_closed;
+    for (const unsigned int i : own)
       {
-        Member member{{pairs[i]->interface, pairs[i]->slot, pairs[i]->reversed, pairs[i]->slave_id},
-                      i,
-                      faces[i],
-                      group->n_rows,
-                      0,
-                      {}};
-        const auto add = [&](const Tensor<1, 3> &direction) {
-          member.directions[member.n_rows++] = direction;
-        };
-        if (faces[i].normal)
-          add(Tensor<1, 3>({1., 0., 0.}));
-        if (faces[i].tangential == CoulombFace::Tangential::circle)
-          add(faces[i].along);
-        if (faces[i].tangential == CoulombFace::Tangential::disc)
-          {
-            add(Tensor<1, 3>({0., 1., 0.}));
-            add(Tensor<1, 3>({0., 0., 1.}));
-          }
-        group->n_rows += member.n_rows;
-        group->members.push_back(member);
+        const ContactPair &pair = *pairs[i];
+        ClosedPair c{pair.slave_id, pair.interface, pair.slot, pair.reversed, faces[i], 0, {}};
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          if (const unsigned int node = pair.nodes[k];
+              !mobility.is_common(node) && !mobility.is_held(node))
+            c.nodes[c.n_nodes++] = nodes.id(node);
+        own_closed.push_back(c);
       }
-    make_entries(*group);
-    factorize(*group);
-    return group;
+    const MPI_Comm communicator = nodes.get_communicator();
+    n_closed                    = numbers_of_items(own.size(), communicator);
+    first_own                   = std::accumulate(n_closed.begin(),
+                                n_closed.begin() + Utilities::MPI::this_mpi_process(communicator),
+                                0U);
+    gather(own_closed, n_closed, closed, communicator);
+  }
+
+
+  // Lists of closed pairs that share nodes, directly or through others, in the order of their keys.
+  std::vector<std::vector<unsigned int>>
+  PairPreconditioner::divide() const
+  {
+    std::vector<unsigned int> order(closed.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::vector<unsigned int> parents = order;
+
+    std::vector<std::pair<ContactNodes::Id, unsigned int>> at_nodes;
+    for (unsigned int c = 0; c < closed.size(); ++c)
+      for (unsigned int k = 0; k < closed[c].n_nodes; ++k)
+        at_nodes.emplace_back(closed[c].nodes[k], c);
+    std::sort(at_nodes.begin(), at_nodes.end());
+    for (std::size_t i = 1; i < at_nodes.size(); ++i)
+      if (at_nodes[i].first == at_nodes[i - 1].first)
+        parents[root_of(parents, at_nodes[i].second)] = root_of(parents, at_nodes[i - 1].second);
+
+    std::sort(order.begin(), order.end(), [&](const unsigned int a, const unsigned int b) {
+      return closed[a].key() < closed[b].key();
+    });
+    std::vector<std::vector<unsigned int>> lists;
+    std::vector<unsigned int> list_of_root(closed.size(), none);
+    for (const unsigned int c : order)
+      {
+        unsigned int &list = list_of_root[root_of(parents, c)];
+        if (list == none)
+          {
+            list = lists.size();
+            lists.emplace_back();
+          }
+        lists[list].push_back(c);
+      }
+    return lists;
+  }
+
+
+  bool
+  PairPreconditioner::serves(const Group &group, const std::vector<unsigned int> &list) const
+  {
+    if (group.keys.size() != list.size())
+      return false;
+    for (std::size_t m = 0; m < list.size(); ++m)
+      if (group.keys[m] != closed[list[m]].key() || !alike(group.faces[m], closed[list[m]].face))
+        return false;
+    return true;
   }
 
 
   void
-  PairPreconditioner::make_entries(const Group &group)
+  PairPreconditioner::make_groups(const std::vector<std::vector<unsigned int>> &lists)
   {
-    entries.clear();
-    triplets.clear();
-    for (const auto &member : group.members)
+    std::map<Key, std::unique_ptr<Group>> old_groups;
+    for (auto &group : groups)
+      old_groups[group->keys.front()] = std::move(group);
+    groups.clear();
+    std::vector<bool> is_new;
+    for (const auto &list : lists)
       {
-        const ContactPair &pair = *pairs[member.pair];
-        const double s          = delassus->scale()[member.pair];
-        for (unsigned int j = 0; j < member.n_rows; ++j)
+        const auto old = old_groups.find(closed[list.front()].key());
+        is_new.push_back(old == old_groups.end() || !serves(*old->second, list));
+        groups.push_back(is_new.back() ? std::make_unique<Group>() : std::move(old->second));
+        Group &group  = *groups.back();
+        group.members = list;
+        for (std::size_t m = 0; m < list.size(); ++m)
+          if (is_new.back())
+            {
+              group.keys.push_back(closed[list[m]].key());
+              group.faces.push_back(closed[list[m]].face);
+            }
+          else
+            closed[list[m]].face = group.faces[m];
+      }
+    number_rows();
+    gather_entries(is_new);
+    for (auto begin = entries.cbegin(); begin != entries.cend();)
+      {
+        const unsigned int group = group_of[begin->pair];
+        const auto end           = std::find_if(begin, entries.cend(), [&](const Entry &entry) {
+          return group_of[entry.pair] != group;
+        });
+        factorize(*groups[group], begin, end);
+        begin = end;
+      }
+  }
+
+
+  void
+  PairPreconditioner::number_rows()
+  {
+    group_of.resize(closed.size());
+    first_row.resize(closed.size());
+    for (unsigned int g = 0; g < groups.size(); ++g)
+      {
+        groups[g]->n_rows = 0;
+        for (const unsigned int c : groups[g]->members)
           {
-            const auto force       = s * (member.directions[j] * delassus->frame(member.pair));
-            const unsigned int row = member.first_row + j;
-            double diagonal        = shift;
-            if (member.face.tangential == CoulombFace::Tangential::circle &&
-                member.directions[j] == member.face.along)
-              diagonal += member.face.curvature;
-            for (unsigned int k = 0; k < pair.n_nodes; ++k)
-              {
-                const unsigned int node = pair.nodes[k];
-                const auto at_node      = pair.at_node(k, force);
-                if (mobility.is_common(node))
-                  diagonal += at_node * (mobility[node] * at_node) / mass_factor;
-                else if (!mobility.is_held(node))
-                  entries.push_back({node, row, at_node});
-              }
-            triplets.emplace_back(row, row, diagonal);
+            group_of[c]  = g;
+            first_row[c] = groups[g]->n_rows;
+            groups[g]->n_rows += Directions(closed[c].face).n;
           }
       }
-    std::sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
-      return std::tie(a.node, a.row) < std::tie(b.node, b.row);
+  }
+
+
+  void
+  PairPreconditioner::gather_entries(const std::vector<bool> &is_new)
+  {
+    std::vector<Entry> own_entries;
+    for (unsigned int j = 0; j < own.size(); ++j)
+      {
+        const unsigned int i = own[j], c = first_own + j;
+        if (!is_new[group_of[c]])
+          continue;
+        const Directions directions(closed[c].face);
+        for (unsigned int row = 0; row < directions.n; ++row)
+          {
+            const auto force = delassus->scale()[i] * (directions.e[row] * delassus->frame(i));
+            for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
+              {
+                const unsigned int node = pairs[i]->nodes[k];
+                if (mobility.is_held(node))
+                  continue;
+                const auto at_node = pairs[i]->at_node(k, force);
+                own_entries.push_back(
+                  {mobility.is_common(node) ? numbers::invalid_dof_index : nodes.id(node),
+                   c,
+                   first_row[c] + row,
+                   at_node,
+                   mobility[node] * at_node / mass_factor});
+              }
+          }
+      }
+    const MPI_Comm communicator = nodes.get_communicator();
+    gather(own_entries, numbers_of_items(own_entries.size(), communicator), entries, communicator);
+    std::stable_sort(entries.begin(), entries.end(), [&](const Entry &a, const Entry &b) {
+      return std::make_tuple(group_of[a.pair], a.node, a.row) <
+             std::make_tuple(group_of[b.pair], b.node, b.row);
     });
   }
 
 
   void
-  PairPreconditioner::factorize(Group &group)
+  PairPreconditioner::factorize(Group &group,
+                                const std::vector<Entry>::const_iterator begin,
+                                const std::vector<Entry>::const_iterator end)
   {
     constexpr double rounding = 1e-12; // of what is zero between orthogonal directions
 
-    for (auto begin = entries.begin(); begin != entries.end();)
+    triplets.clear();
+    for (const unsigned int c : group.members)
       {
-        const auto &W = mobility[begin->node];
-        auto end      = begin;
-        for (; end != entries.end() && end->node == begin->node; ++end)
+        const Directions directions(closed[c].face);
+        for (unsigned int j = 0; j < directions.n; ++j)
           {
-            const auto increment = W * end->force / mass_factor;
-            for (auto other = begin; other != end + 1; ++other)
-              {
-                const double value = other->force * increment;
-                if (std::abs(value) > rounding)
-                  triplets.emplace_back(end->row, other->row, value);
-              }
+            const bool turns = closed[c].face.tangential == CoulombFace::Tangential::circle &&
+                               directions.e[j] == closed[c].face.along;
+            triplets.emplace_back(first_row[c] + j,
+                                  first_row[c] + j,
+                                  shift + (turns ? closed[c].face.curvature : 0.));
           }
-        begin = end;
+      }
+    auto of_node = begin;
+    for (auto entry = begin; entry != end; ++entry)
+      {
+        if (entry->node != of_node->node)
+          of_node = entry;
+        const bool rigid = entry->node == numbers::invalid_dof_index;
+        for (auto other = rigid ? entry : of_node; other <= entry; ++other)
+          if (const double value = other->force * entry->increment; std::abs(value) > rounding)
+            triplets.emplace_back(entry->row, other->row, value);
       }
     group.valid = group.cholesky.compute(group.n_rows, triplets);
   }
@@ -296,23 +379,33 @@ namespace akmon
   void
   PairPreconditioner::apply(const Vector &r, Vector &z)
   {
-    z = r;
+    own_values.resize(own.size());
+    for (unsigned int j = 0; j < own.size(); ++j)
+      {
+        const Directions directions(closed[first_own + j].face);
+        own_values[j].clear();
+        for (unsigned int row = 0; row < directions.n; ++row)
+          own_values[j][row] = directions.e[row] * r[own[j]];
+      }
+    gather(own_values, n_closed, all_values, nodes.get_communicator());
     for (const auto &group : groups)
       {
-        if (!group->valid)
-          continue;
         values.resize(group->n_rows);
-        for (const auto &member : group->members)
-          for (unsigned int j = 0; j < member.n_rows; ++j)
-            values[member.first_row + j] = member.directions[j] * r[member.pair];
-        solution = values;
-        group->cholesky.solve_in_place(solution);
-        for (const auto &member : group->members)
-          for (unsigned int j = 0; j < member.n_rows; ++j)
-            {
-              const unsigned int row = member.first_row + j;
-              z[member.pair] += (solution[row] - values[row]) * member.directions[j];
-            }
+        for (const unsigned int c : group->members)
+          for (unsigned int row = 0; row < Directions(closed[c].face).n; ++row)
+            values[first_row[c] + row] = all_values[c][row];
+        if (group->valid)
+          group->cholesky.solve_in_place(values);
+        for (const unsigned int c : group->members)
+          for (unsigned int row = 0; row < Directions(closed[c].face).n; ++row)
+            all_values[c][row] = values[first_row[c] + row];
+      }
+    z = r;
+    for (unsigned int j = 0; j < own.size(); ++j)
+      {
+        const Directions directions(closed[first_own + j].face);
+        for (unsigned int row = 0; row < directions.n; ++row)
+          z[own[j]] += (all_values[first_own + j][row] - own_values[j][row]) * directions.e[row];
       }
   }
 } // namespace akmon

@@ -142,6 +142,13 @@ namespace akmon
     ContactReport
     report(const NodalState &state) const;
 
+    /// Seconds that this rank has spent on looking for its pairs, without waiting for others.
+    double
+    search_seconds() const
+    {
+      return seconds_of_search;
+    }
+
     /// Extents of the contact of an interface.
     struct Patch
     {
@@ -268,9 +275,10 @@ namespace akmon
     Mobility mobility;
     const std::unique_ptr<Bonds> bonds;
     CoupledSolver coupled;
-    double moved     = 0.; ///< bound of relative motion since candidates were built
-    double travelled = 0.; ///< the same since the beginning
-    bool prepared    = false;
+    double moved             = 0.; ///< bound of relative motion since candidates were built
+    double travelled         = 0.; ///< the same since the beginning
+    double seconds_of_search = 0.;
+    bool prepared            = false;
 
     ContactNodes::Field x, dx, dx_free, x_reached;
     std::vector<ContactPair> pairs;

@@ -7,7 +7,6 @@
 #include <akmon/contact/pair.h>
 
 #include <array>
-#include <limits>
 #include <memory>
 #include <tuple>
 #include <utility>
@@ -16,29 +15,32 @@
 namespace akmon
 {
   /**
-   * Inverse of the scaled Delassus operator in the free directions of its pairs, as far as this
-   * rank knows it: Cholesky factors of
+   * Inverse of the scaled Delassus operator in the free directions of its pairs: Cholesky factors
+   * of
    *
    *     S = E^T (A + shift) E + curvatures
    *
-   * of the rank's own pairs, where E are their free directions: the normal of a closed pair, both
-   * tangents where it sticks, the tangent of the circle where it slips. The Jacobian of the contact
-   * problem is S + E^T A (L - E): forces of slip follow normal forces. On a flat interface that
-   * rest acts on normal forces only and makes tangential motion only, its square is nothing, and
-   * GMRES needs two iterations.
+   * where E are the free directions: the normal of a closed pair, both tangents where it sticks,
+   * the tangent of the circle where it slips. The Jacobian of the contact problem is
+   * S + E^T A (L - E): forces of slip follow normal forces. On a flat interface that rest acts on
+   * normal forces only and makes tangential motion only, its square is nothing, and GMRES needs two
+   * iterations.
    *
    * A is singular where constraints repeat each other; the shift makes factors regular. A rigid
    * body couples all its pairs by six unknowns, which cost as many iterations at most: it counts on
    * the diagonal only. Pairs that share nodes, directly or through others, are a group with a
    * factor of its own, which is kept, from step to step too, while its free directions are about
    * the same: weights and normals that have changed a little make it no worse.
+   *
+   * Every rank has the factors of all groups and computes the same with them, so that iterations,
+   * and with them solutions, are those of one rank.
    */
   class PairPreconditioner
   {
   public:
     using Vector = std::vector<dealii::Tensor<1, 3>>;
 
-    explicit PairPreconditioner(const Mobility &mobility);
+    PairPreconditioner(const ContactNodes &nodes, const Mobility &mobility);
 
     /**
      * The pairs of the coming solutions.
@@ -53,108 +55,110 @@ namespace akmon
     void
     forget();
 
-    /// Whether factors of an earlier step are in use.
+    /// Whether factors of an earlier step are in use; the same on all ranks.
     bool
     is_old() const;
 
     /**
-     * What the coming applications are for.
+     * What the coming applications are for (collective).
      * @param faces  with the free directions
      * @param shift  added to the unit diagonal
      */
     void
     reinit(const std::vector<CoulombFace> &faces, const double shift);
 
-    /// z close to S^{-1} r in the free directions.
+    /// z close to S^{-1} r in the free directions (collective).
     void
     apply(const Vector &r, Vector &z);
 
   private:
-    // Which pair a row of the operator belongs to, beyond the step.
-    struct Key
+    // Which pair it is, beyond the step.
+    using Key = std::tuple<ContactNodes::Id, unsigned int, unsigned int, bool>;
+
+    // A closed pair of any rank, with the nodes that couple it.
+    struct ClosedPair
     {
+      ContactNodes::Id slave;
       unsigned int interface, slot;
       bool reversed;
-      ContactNodes::Id slave;
+      CoulombFace face;
+      unsigned int n_nodes;
+      std::array<ContactNodes::Id, 7> nodes;
 
-      bool
-      operator<(const Key &other) const
+      Key
+      key() const
       {
-        return std::tie(slave, interface, slot, reversed) <
-               std::tie(other.slave, other.interface, other.slot, other.reversed);
+        return {slave, interface, slot, reversed};
       }
     };
 
-    // A pair of a factor with its free directions.
-    struct Member
+    // The free directions of a pair, in its frame.
+    struct Directions
     {
-      Key key;
-      unsigned int pair; ///< its number at present, if there still is one
-      CoulombFace face;
-      unsigned int first_row, n_rows;
-      std::array<dealii::Tensor<1, 3>, 3> directions; ///< of its rows, in the pair's frame
+      unsigned int n = 0;
+      std::array<dealii::Tensor<1, 3>, 3> e;
+
+      explicit Directions(const CoulombFace &face);
     };
 
     // Pairs that share nodes, and their factor.
     struct Group
     {
-      std::vector<Member> members; ///< sorted by key
+      std::vector<Key> keys; ///< of its pairs, sorted
+      std::vector<CoulombFace> faces;
+      std::vector<unsigned int> members; ///< numbers of its pairs among the closed ones
       unsigned int n_rows = 0;
       CholeskyFactor cholesky;
       bool valid = false; ///< whether S was positive definite
       bool old   = false; ///< whether it was made in an earlier step
     };
 
-    // What a unit force along a row does to a node: s_i N_ik e.
+    // What a unit force along a direction e of a pair does to a node: s_i N_ik e, and its motion.
     struct Entry
     {
-      unsigned int node, row;
-      dealii::Tensor<1, 3> force;
+      ContactNodes::Id node; ///< invalid: of a rigid body
+      unsigned int pair;     ///< its number among the closed ones
+      unsigned int row;      ///< of the pair, then of its group
+      dealii::Tensor<1, 3> force, increment;
     };
-
-    static constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
     bool
     is_closed(const unsigned int pair, const std::vector<CoulombFace> &faces) const;
     bool
-    still_serve(const std::vector<CoulombFace> &faces) const;
+    still_serve(const std::vector<CoulombFace> &faces);
     void
-    divide(const std::vector<CoulombFace> &faces);
-    unsigned int
-    root_of(unsigned int pair);
+    gather_closed_pairs(const std::vector<CoulombFace> &faces);
+    std::vector<std::vector<unsigned int>>
+    divide() const;
+    void
+    make_groups(const std::vector<std::vector<unsigned int>> &lists);
     bool
-    serves(const Group &group,
-           const std::vector<unsigned int> &list,
-           const std::vector<CoulombFace> &faces) const;
-    std::unique_ptr<Group>
-    make_group(const std::vector<unsigned int> &list, const std::vector<CoulombFace> &faces);
+    serves(const Group &group, const std::vector<unsigned int> &list) const;
     void
-    make_entries(const Group &group);
+    number_rows();
     void
-    factorize(Group &group);
+    gather_entries(const std::vector<bool> &is_new);
     void
-    find_places();
+    factorize(Group &group,
+              const std::vector<Entry>::const_iterator begin,
+              const std::vector<Entry>::const_iterator end);
 
+    const ContactNodes &nodes;
     const Mobility &mobility;
     double shift = 0.;
     std::vector<ContactPair *> pairs;
     const Delassus *delassus = nullptr;
     double mass_factor       = 1.;
 
-    // Where a pair is a member.
-    struct Place
-    {
-      unsigned int group, member;
-    };
-
-    std::vector<std::pair<Key, unsigned int>> present; ///< keys and numbers of the pairs, sorted
+    std::vector<unsigned int> own;  ///< closed pairs of this rank
+    std::vector<ClosedPair> closed; ///< of all ranks, one after another; faces as in the factors
+    std::vector<int> n_closed;      ///< of the ranks
+    unsigned int first_own = 0;     ///< number of this rank's first pair among the closed ones
     std::vector<std::unique_ptr<Group>> groups;
-    std::vector<Place> places;                    ///< by pair
-    std::vector<unsigned int> parents;            ///< by pair, while they are divided
-    std::vector<unsigned int> pair_at_node;       ///< by contact number, while they are divided
-    std::vector<std::vector<unsigned int>> lists; ///< pairs of the groups
-    std::vector<Entry> entries;                   ///< of the group in work, sorted by node
-    CholeskyFactor::Entries triplets;             ///< of the group in work
-    Eigen::VectorXd values, solution;
+    std::vector<unsigned int> group_of, first_row; ///< of the closed pairs
+    std::vector<Entry> entries;                    ///< of new groups, by group, node and row
+    CholeskyFactor::Entries triplets;              ///< of the group in work
+    Vector own_values, all_values;
+    Eigen::VectorXd values;
   };
 } // namespace akmon

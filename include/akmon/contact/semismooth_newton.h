@@ -2,6 +2,7 @@
 
 #include <akmon/contact/coulomb_faces.h>
 #include <akmon/contact/gmres.h>
+#include <akmon/contact/reproducible_sums.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -284,14 +285,16 @@ namespace akmon
     {
       constexpr unsigned int dimension = 80;
 
-      double square = 0., weighted = 0.;
+      double weighted = 0.;
+      squares.resize(1);
+      squares[0].resize(t.size());
       for (std::size_t i = 0; i < t.size(); ++i)
         {
-          r[i] = -faces[i].restrict_to(g[i]);
-          square += r[i].norm_square();
-          weighted = std::max(weighted, problem->weights[i] * r[i].norm());
+          r[i]          = -faces[i].restrict_to(g[i]);
+          squares[0][i] = r[i].norm_square();
+          weighted      = std::max(weighted, problem->weights[i] * r[i].norm());
         }
-      const double norm = std::sqrt(dealii::Utilities::MPI::sum(square, communicator));
+      const double norm = std::sqrt(reproducible_sums(squares, communicator)[0]);
       weighted          = dealii::Utilities::MPI::max(weighted, communicator);
       const double goal = weighted > 0. ? 0.15 * problem->tolerance / weighted : 1.;
       precondition.reinit(faces, compliance);
@@ -348,5 +351,6 @@ namespace akmon
     std::vector<CoulombFace> faces;
     Vector g; ///< A t + b + c (t - t_0)
     Vector reference, t_best, r, direction, image;
+    std::vector<std::vector<double>> squares; ///< of r, in a list of their own
   };
 } // namespace akmon
