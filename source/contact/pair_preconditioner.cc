@@ -292,14 +292,16 @@ namespace akmon
   {
     group_of.resize(closed.size());
     first_row.resize(closed.size());
+    directions.resize(closed.size());
     for (unsigned int g = 0; g < groups.size(); ++g)
       {
         groups[g]->n_rows = 0;
         for (const unsigned int c : groups[g]->members)
           {
-            group_of[c]  = g;
-            first_row[c] = groups[g]->n_rows;
-            groups[g]->n_rows += Directions(closed[c].face).n;
+            group_of[c]   = g;
+            first_row[c]  = groups[g]->n_rows;
+            directions[c] = Directions(closed[c].face);
+            groups[g]->n_rows += directions[c].n;
           }
       }
   }
@@ -314,10 +316,9 @@ namespace akmon
         const unsigned int i = own[j], c = first_own + j;
         if (!is_new[group_of[c]])
           continue;
-        const Directions directions(closed[c].face);
-        for (unsigned int row = 0; row < directions.n; ++row)
+        for (unsigned int row = 0; row < directions[c].n; ++row)
           {
-            const auto force = delassus->scale()[i] * (directions.e[row] * delassus->frame(i));
+            const auto force = delassus->scale()[i] * (directions[c].e[row] * delassus->frame(i));
             for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
               {
                 const unsigned int node = pairs[i]->nodes[k];
@@ -351,17 +352,14 @@ namespace akmon
 
     triplets.clear();
     for (const unsigned int c : group.members)
-      {
-        const Directions directions(closed[c].face);
-        for (unsigned int j = 0; j < directions.n; ++j)
-          {
-            const bool turns = closed[c].face.tangential == CoulombFace::Tangential::circle &&
-                               directions.e[j] == closed[c].face.along;
-            triplets.emplace_back(first_row[c] + j,
-                                  first_row[c] + j,
-                                  shift + (turns ? closed[c].face.curvature : 0.));
-          }
-      }
+      for (unsigned int j = 0; j < directions[c].n; ++j)
+        {
+          const bool turns = closed[c].face.tangential == CoulombFace::Tangential::circle &&
+                             directions[c].e[j] == closed[c].face.along;
+          triplets.emplace_back(first_row[c] + j,
+                                first_row[c] + j,
+                                shift + (turns ? closed[c].face.curvature : 0.));
+        }
     auto of_node = begin;
     for (auto entry = begin; entry != end; ++entry)
       {
@@ -382,30 +380,30 @@ namespace akmon
     own_values.resize(own.size());
     for (unsigned int j = 0; j < own.size(); ++j)
       {
-        const Directions directions(closed[first_own + j].face);
+        const Directions &d = directions[first_own + j];
         own_values[j].clear();
-        for (unsigned int row = 0; row < directions.n; ++row)
-          own_values[j][row] = directions.e[row] * r[own[j]];
+        for (unsigned int row = 0; row < d.n; ++row)
+          own_values[j][row] = d.e[row] * r[own[j]];
       }
     gather(own_values, n_closed, all_values, nodes.get_communicator());
     for (const auto &group : groups)
       {
         values.resize(group->n_rows);
         for (const unsigned int c : group->members)
-          for (unsigned int row = 0; row < Directions(closed[c].face).n; ++row)
+          for (unsigned int row = 0; row < directions[c].n; ++row)
             values[first_row[c] + row] = all_values[c][row];
         if (group->valid)
           group->cholesky.solve_in_place(values);
         for (const unsigned int c : group->members)
-          for (unsigned int row = 0; row < Directions(closed[c].face).n; ++row)
+          for (unsigned int row = 0; row < directions[c].n; ++row)
             all_values[c][row] = values[first_row[c] + row];
       }
     z = r;
     for (unsigned int j = 0; j < own.size(); ++j)
       {
-        const Directions directions(closed[first_own + j].face);
-        for (unsigned int row = 0; row < directions.n; ++row)
-          z[own[j]] += (all_values[first_own + j][row] - own_values[j][row]) * directions.e[row];
+        const Directions &d = directions[first_own + j];
+        for (unsigned int row = 0; row < d.n; ++row)
+          z[own[j]] += (all_values[first_own + j][row] - own_values[j][row]) * d.e[row];
       }
   }
 } // namespace akmon

@@ -98,6 +98,7 @@ namespace akmon
       unsigned int n = 0;
       std::array<dealii::Tensor<1, 3>, 3> e;
 
+      Directions() = default;
       explicit Directions(const CoulombFace &face);
     };
 
@@ -156,6 +157,7 @@ namespace akmon
     unsigned int first_own = 0;     ///< number of this rank's first pair among the closed ones
     std::vector<std::unique_ptr<Group>> groups;
     std::vector<unsigned int> group_of, first_row; ///< of the closed pairs
+    std::vector<Directions> directions;            ///< of the closed pairs
     std::vector<Entry> entries;                    ///< of new groups, by group, node and row
     CholeskyFactor::Entries triplets;              ///< of the group in work
     Vector own_values, all_values;
