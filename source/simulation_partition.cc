@@ -13,18 +13,23 @@ namespace akmon
 {
   using namespace dealii;
 
-  // Looks at the work since the last checkpoint: the stages in which no rank waits for others.
+  // Looks at the work since the last checkpoint: the stages in which no rank waits for others. What
+  // was lost by waiting must be worth building the model anew, unless the bound is one.
   bool
   Simulation::wants_repartition()
   {
+    constexpr double worth = 10.; // seconds
+
     const double forces = timer.seconds(stages.forces) -
                           std::exchange(forces_before, timer.seconds(stages.forces));
     const double search = contact.search_seconds() -
                           std::exchange(search_before, contact.search_seconds());
     const auto work     = Utilities::MPI::min_max_avg(forces + search, communicator);
     const double uneven = work.avg > 0. ? work.max / work.avg : 1.;
+    const double bound  = parameters.partition.repartition_above;
     if (Utilities::MPI::n_mpi_processes(communicator) == 1 ||
-        parameters.time.finished(state.time) || !(uneven >= parameters.partition.repartition_above))
+        parameters.time.finished(state.time) || !(uneven >= bound) ||
+        (bound > 1. && work.max - work.avg < worth))
       return false;
     auto extra_work = measure_extra_work(forces, search);
     if (extra_work == continuation.extra_work) // cells alone: they are shared out evenly
