@@ -4,7 +4,8 @@
 
 #include "fuzz.h"
 
-// Any bytes as a mesh file, of cells or of an obstacle's surface; the first byte chooses the format.
+// Any bytes as a mesh file, of cells or of an obstacle's surface; the first byte chooses the
+// format.
 
 extern "C" int
 LLVMFuzzerTestOneInput(const std::uint8_t *const data, const std::size_t size)
