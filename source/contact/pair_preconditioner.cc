@@ -196,7 +196,7 @@ namespace akmon
     n_closed                    = numbers_of_items(own.size(), communicator);
     first_own                   = std::accumulate(n_closed.begin(),
                                 n_closed.begin() + Utilities::MPI::this_mpi_process(communicator),
-                                0U);
+                                0);
     gather(own_closed, n_closed, closed, communicator);
   }
 
