@@ -346,20 +346,16 @@ namespace akmon
     if (rigid_nodes.n == 0)
       return;
     std::vector<std::vector<double>> addends(6 * rigid_nodes.n); // normal and tangential
-    for (const auto &pair : pairs)
-      if (pair.normal_force > 0.)
-        for (unsigned int k = 0; k < pair.n_nodes; ++k)
-          if (pair.nodes[k] >= nodes.first_common())
-            {
-              const unsigned int i  = pair.nodes[k] - nodes.first_common();
-              const auto normal     = pair.at_node(k, pair.normal_force * pair.normal);
-              const auto tangential = pair.at_node(k, pair.tangential_force);
-              for (unsigned int d = 0; d < 3; ++d)
-                {
-                  addends[6 * i + d].push_back(normal[d]);
-                  addends[6 * i + 3 + d].push_back(tangential[d]);
-                }
-            }
+    visit_rigid_loads([&](const unsigned int,
+                          const unsigned int i,
+                          const Tensor<1, 3> &normal,
+                          const Tensor<1, 3> &tangential) {
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          addends[6 * i + d].push_back(normal[d]);
+          addends[6 * i + 3 + d].push_back(tangential[d]);
+        }
+    });
     const auto sums   = reproducible_sums(addends, discretization.communicator());
     const auto sum_at = [&](const unsigned int first) {
       return Tensor<1, 3>({sums[first], sums[first + 1], sums[first + 2]});

@@ -73,12 +73,7 @@ namespace akmon
   Delassus::norm_bound()
   {
     const auto coefficient = [&](const std::size_t i, const unsigned int k) {
-      const ContactPair &pair = *pairs[i];
-      if (k >= pair.n_points())
-        return std::abs(pair.weights[k]) * pair.radii[k - pair.n_points()].norm() * scales[i];
-      const double of_lever = pair.levered && k > 0 ? pair.lever.norm() * pair.arms[k - 1].norm() :
-                                                      0.;
-      return (std::abs(pair.weights[k]) + of_lever) * scales[i];
+      return pairs[i]->bound_at_node(k) * scales[i];
     };
     clear();
     sums.add(

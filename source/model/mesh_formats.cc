@@ -1,10 +1,9 @@
 #include <akmon/model/mesh_table.h>
+#include <akmon/model/words.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 
 // Mesh files as words: nothing is believed that is not there.
@@ -15,132 +14,6 @@ namespace akmon
 
   namespace
   {
-    // A word as messages have it: short.
-    std::string
-    shown(const std::string &word)
-    {
-      return word.empty() ? "the end of the file" : "'" + word.substr(0, 40) + "'";
-    }
-
-
-    // The words of a file, one after another.
-    class Words
-    {
-    public:
-      explicit Words(std::istream &stream)
-      {
-        std::ostringstream text;
-        text << stream.rdbuf();
-        size = text.str().size();
-        words.str(text.str());
-      }
-
-      std::string
-      line()
-      {
-        std::string text;
-        std::getline(words, text);
-        return text;
-      }
-
-      // Empty at the end of the file.
-      std::string
-      word()
-      {
-        std::string text;
-        words >> text;
-        return text;
-      }
-
-      void
-      expect(const std::string &expected)
-      {
-        const std::string found = word();
-        if (found != expected)
-          throw std::runtime_error(shown(found) + " stands where '" + expected + "' is expected");
-      }
-
-      // Go on behind a word.
-      void
-      find(const std::string &wanted)
-      {
-        while (words)
-          if (word() == wanted)
-            return;
-        throw std::runtime_error("there is no '" + wanted + "'");
-      }
-
-      double
-      number()
-      {
-        const std::string text = word();
-        std::size_t end        = 0;
-        double value           = 0.;
-        try
-          {
-            value = std::stod(text, &end);
-          }
-        catch (const std::exception &)
-          {
-            end = 0;
-          }
-        if (end == 0 || end != text.size())
-          throw std::runtime_error(shown(text) + " stands where a number is expected");
-        return value;
-      }
-
-      long
-      integer()
-      {
-        constexpr double largest = 4e15; // exact in a double
-
-        const double value = number();
-        if (!(std::abs(value) < largest) || value != std::floor(value))
-          throw std::runtime_error("a whole number is expected where " + std::to_string(value) +
-                                   " stands");
-        return static_cast<long>(value);
-      }
-
-      // Of things that take two characters each at least.
-      long
-      count()
-      {
-        const long n = integer();
-        if (n < 0 || static_cast<unsigned long>(n) > size / 2 + 1)
-          throw std::runtime_error("the file cannot hold " + std::to_string(n) + " entries");
-        return n;
-      }
-
-      Point<3>
-      point()
-      {
-        const double x = number(), y = number(), z = number();
-        return Point<3>(x, y, z);
-      }
-
-      std::vector<long>
-      integers(const long n)
-      {
-        std::vector<long> values(n);
-        for (long &value : values)
-          value = integer();
-        return values;
-      }
-
-      void
-      skip(const long n)
-      {
-        for (long i = 0; i < n; ++i)
-          if (word().empty())
-            throw std::runtime_error("the file ends too early");
-      }
-
-    private:
-      std::istringstream words;
-      std::size_t size;
-    };
-
-
     // Kinds of cells that the formats know by different names.
     struct Kind
     {
@@ -176,6 +49,18 @@ namespace akmon
       if (found == kinds.end())
         throw std::runtime_error("cells of type " + shown(name) + " are not known");
       return found->second;
+    }
+
+
+    // So many nodes, each with its number and its place.
+    void
+    read_nodes(Words &words, const long n_nodes, MeshTable &table)
+    {
+      for (long i = 0; i < n_nodes; ++i)
+        {
+          const long number = words.integer();
+          table.add_node(number, words.point());
+        }
     }
 
 
@@ -281,12 +166,7 @@ namespace akmon
     void
     read_msh_lists(Words &words, const bool first_version, MeshTable &table)
     {
-      const long n_nodes = words.count();
-      for (long i = 0; i < n_nodes; ++i)
-        {
-          const long number = words.integer();
-          table.add_node(number, words.point());
-        }
+      read_nodes(words, words.count(), table);
       words.find(first_version ? "$ELM" : "$Elements");
       const long n_cells = words.count();
       for (long i = 0; i < n_cells; ++i)
@@ -351,11 +231,7 @@ namespace akmon
     Words words(stream);
     const long n_nodes = words.count(), n_cells = words.count();
     words.skip(3); // numbers of data
-    for (long i = 0; i < n_nodes; ++i)
-      {
-        const long number = words.integer();
-        table.add_node(number, words.point());
-      }
+    read_nodes(words, n_nodes, table);
     for (long i = 0; i < n_cells; ++i)
       {
         words.integer();
@@ -404,15 +280,10 @@ namespace akmon
 
     // deal.II tells boundary ids as materials.
     std::vector<long> ids(cells.size(), 0);
-    bool materials = false;
-    while (!materials)
-      {
-        const std::string word = words.word();
-        materials              = word == "MaterialID";
-        if (word.empty())
-          break;
-      }
-    if (materials)
+    std::string word = words.word();
+    while (!word.empty() && word != "MaterialID")
+      word = words.word();
+    if (!word.empty())
       {
         words.find("default");
         for (long &id : ids)

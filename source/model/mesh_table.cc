@@ -34,6 +34,15 @@ namespace akmon
     }
 
 
+    Corners
+    sorted_corners_of(const CellData<2> &quadrilateral)
+    {
+      Corners corners;
+      std::copy(quadrilateral.vertices.begin(), quadrilateral.vertices.end(), corners.begin());
+      return sorted(corners);
+    }
+
+
     template <std::size_t n>
     void
     refuse_repeated(const std::array<long, n> &nodes, const std::string &what)
@@ -109,7 +118,7 @@ namespace akmon
 
 
   void
-  MeshTable::check_faces(const SubCellData &boundary) const
+  MeshTable::check_faces() const
   {
     std::map<Corners, unsigned int> n_cells;
     for (std::size_t cell = 0; cell < hexahedra.size(); ++cell)
@@ -124,11 +133,9 @@ namespace akmon
             throw std::runtime_error("more than two cells share a face of cell " +
                                      std::to_string(cell + 1));
         }
-    for (const auto &quadrilateral : boundary.boundary_quads)
+    for (const auto &quadrilateral : quadrilaterals.boundary_quads)
       {
-        Corners corners;
-        std::copy(quadrilateral.vertices.begin(), quadrilateral.vertices.end(), corners.begin());
-        const auto found = n_cells.find(sorted(corners));
+        const auto found = n_cells.find(sorted_corners_of(quadrilateral));
         if (found == n_cells.end() || found->second != 1)
           throw std::runtime_error("a quadrilateral of boundary " +
                                    std::to_string(quadrilateral.boundary_id) +
@@ -140,7 +147,7 @@ namespace akmon
   void
   MeshTable::make_triangulation(Triangulation<3> &triangulation) const
   {
-    check_faces(quadrilaterals);
+    check_faces();
     std::vector<CellData<3>> cells;
     for (const auto &nodes : hexahedra)
       {
@@ -152,12 +159,8 @@ namespace akmon
     SubCellData boundary;
     std::set<Corners> known;
     for (const auto &quadrilateral : quadrilaterals.boundary_quads)
-      {
-        Corners corners;
-        std::copy(quadrilateral.vertices.begin(), quadrilateral.vertices.end(), corners.begin());
-        if (known.insert(sorted(corners)).second)
-          boundary.boundary_quads.push_back(quadrilateral);
-      }
+      if (known.insert(sorted_corners_of(quadrilateral)).second)
+        boundary.boundary_quads.push_back(quadrilateral);
     auto vertices = places;
     GridTools::delete_unused_vertices(vertices, cells, boundary);
     GridTools::invert_cells_with_negative_measure(vertices, cells);

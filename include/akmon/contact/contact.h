@@ -240,6 +240,9 @@ namespace akmon
     reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const;
     void
     push_out(const NodalState &state, const double effective_mass_factor);
+    template <typename Visit>
+    void
+    visit_rigid_loads(const Visit &visit) const;
     void
     load_rigid_bodies();
     void
@@ -285,4 +288,21 @@ namespace akmon
     std::vector<ContactNodes::Contribution> contributions;
     std::vector<NodalForce> forces;
   };
+
+
+  // visit(interface, number of the rigid node, normal, tangential load) for what this rank's pairs
+  // do to rigid bodies.
+  template <typename Visit>
+  void
+  Contact::visit_rigid_loads(const Visit &visit) const
+  {
+    for (const auto &pair : pairs)
+      if (pair.normal_force > 0.)
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          if (pair.nodes[k] >= nodes.first_common())
+            visit(pair.interface,
+                  pair.nodes[k] - nodes.first_common(),
+                  pair.at_node(k, pair.normal_force * pair.normal),
+                  pair.at_node(k, pair.tangential_force));
+  }
 } // namespace akmon

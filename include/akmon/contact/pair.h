@@ -5,6 +5,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <cmath>
 
 namespace akmon
 {
@@ -103,6 +104,15 @@ namespace akmon
       if (levered && k > 0)
         return weights[k] * t + cross_product_3d(t * lever, arms[k - 1]);
       return weights[k] * t;
+    }
+
+    /// A bound of the norm of the part of G^T t at the pair's node number k for unit forces t.
+    double
+    bound_at_node(const unsigned int k) const
+    {
+      if (k >= n_points())
+        return std::abs(weights[k]) * radii[k - n_points()].norm();
+      return std::abs(weights[k]) + (levered && k > 0 ? lever.norm() * arms[k - 1].norm() : 0.);
     }
 
     /// f += G^T t

@@ -70,7 +70,7 @@ namespace akmon
     unsigned int
     index_of(const long node) const;
     void
-    check_faces(const dealii::SubCellData &boundary) const;
+    check_faces() const;
 
     std::unordered_map<long, unsigned int> indices; ///< of the nodes, by number
     std::vector<dealii::Point<3>> places;
