@@ -50,7 +50,7 @@ namespace akmon
     for (std::string line; std::getline(stream, line);)
       {
         line = upper_case(dealii::Utilities::trim(line));
-        if (line.empty() || line.compare(0, 2, "**") == 0)
+        if (split_list(line).empty() || line.compare(0, 2, "**") == 0)
           continue;
         if (line[0] != '*')
           {
