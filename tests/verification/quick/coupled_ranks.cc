@@ -55,7 +55,7 @@ namespace
   }
 
 
-  const std::vector<std::string> unlike_bars = {"Time/End=8e-5",
+  const std::vector<std::string> unlike_bars = {"Time/End=6e-5", // impact at 5e-5
                                                 "Time/Step=5e-7",
                                                 "Contact/interface/Pass=symmetric",
                                                 "Bodies/left/Box/Cells=10, 7, 7",
