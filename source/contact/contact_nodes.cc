@@ -125,7 +125,8 @@ namespace akmon
   ContactNodes::send_to_owners(std::vector<Contribution> &contributions) const
   {
     transfer_to_owners(contributions);
-    std::sort(contributions.begin(), contributions.end(), [](const auto &a, const auto &b) {
+    // Pairs of the same slave are of one rank and stay in their order.
+    std::stable_sort(contributions.begin(), contributions.end(), [](const auto &a, const auto &b) {
       return std::tie(a.node, a.interface, a.slave) < std::tie(b.node, b.interface, b.slave);
     });
   }
