@@ -100,14 +100,12 @@ namespace akmon
   void
   Contact::solve_coupled(const NodalState &state)
   {
-    // Rigid shapes are exact: so are gaps from them.
     constexpr unsigned int most_rounds = 8;
-    const double tolerance = bodies.empty() ? 1e-7 : 1e-12; // of gaps, over the cell size
 
     coupled.solve(dx_free);
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
-        if (Utilities::MPI::max(follow_partners(state), discretization.communicator()) <= tolerance)
+        if (Utilities::MPI::max(follow_partners(state), discretization.communicator()) <= 1.)
           return;
         set_target_gaps(state);
         coupled.solve(dx_free);
@@ -153,12 +151,32 @@ namespace akmon
   }
 
 
+  // The curvature that a solution has found is what the next one counts on, and what further
+  // rounds would add to it: the secant through this round and the one before tells how much of a
+  // change comes back.
+  void
+  Contact::count_on(ContactPair &pair, const double curvature)
+  {
+    constexpr double largest_return = 0.5; // beyond, it is not the pair's own motion that counts
+
+    const double change  = curvature - pair.curvature;
+    const double returns = pair.correction != 0. ? 1. + (change - pair.change) / pair.correction :
+                                                   0.;
+    pair.change          = change;
+    pair.correction      = std::abs(returns) < largest_return ? change / (1. - returns) : change;
+    pair.curvature += pair.correction;
+  }
+
+
   // While segments turn under a slave, surfaces are curved or bodies rotate, n . G dx + g misses a
   // part of second order of the gap that the step reaches. Measures it for all pairs that may
-  // close; returns by how much of the cell size it is not what the solution counted on.
+  // close; returns how far it is from what the solution counted on, over what is allowed. Rigid
+  // shapes are exact: so are gaps from them.
   double
   Contact::follow_partners(const NodalState &state)
   {
+    constexpr double tolerance = 1e-7, tolerance_of_rigid = 1e-12; // over the cell size
+
     if (searches.empty() && bodies.empty())
       return 0.;
     const auto &dx_contact = coupled.increments();
@@ -179,8 +197,12 @@ namespace akmon
         const double curvature = std::clamp(reached - linear, -bound, bound);
         const double allowed   = std::min(0., pair->gap + release(*pair, state));
         if (pair->normal_force > 0. || linear + curvature < allowed)
-          largest = std::max(largest, std::abs(curvature - pair->curvature) / pair->size);
-        pair->curvature = curvature;
+          largest = std::max(largest,
+                             std::abs(curvature - pair->curvature) /
+                               (pair->size * (pair->interface < contacts.size() ?
+                                                tolerance :
+                                                tolerance_of_rigid)));
+        count_on(*pair, curvature);
       }
     return largest;
   }

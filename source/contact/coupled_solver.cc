@@ -79,9 +79,10 @@ namespace akmon
                             const std::vector<double> &friction_of_pairs,
                             const double effective_mass_factor)
   {
-    n_iterations  = 0;
-    last_residual = 0.;
-    all_converged = true;
+    n_iterations               = 0;
+    problem.start_is_reference = false;
+    last_residual              = 0.;
+    all_converged              = true;
     choose_participants(pairs, dx_free, friction_of_pairs);
     delassus_of_all.reinit(all, effective_mass_factor);
     isolated = delassus_of_all.isolated_pairs();
@@ -173,13 +174,15 @@ namespace akmon
         tau[i]    = s[i] > 0. ? delassus.frame(i) * pair.force() / s[i] : Tensor<1, 3>();
         violation = std::max(violation, -problem.weights[i] * problem.b[i][0]);
       }
-    problem.tolerance = std::max(tolerance_for(violation),
+    problem.tolerance  = std::max(tolerance_for(violation),
                                  Utilities::MPI::max(rounding_of_rigid_gaps(coupled),
                                                      nodes.get_communicator()));
-    const auto result = newton.solve(problem, tau);
+    problem.sufficient = std::max(parameters.tolerance, problem.tolerance);
+    const auto result  = newton.solve(problem, tau);
     n_iterations += result.n_applications;
-    last_residual = std::max(last_residual, result.residual);
-    all_converged = all_converged && result.converged;
+    problem.start_is_reference = true; // of the next gaps of the same step
+    last_residual              = std::max(last_residual, result.residual);
+    all_converged              = all_converged && result.converged;
     if (!preconditioner.is_old())
       iterations_when_new = result.n_applications;
     else if (result.n_applications > iterations_when_new + patience)

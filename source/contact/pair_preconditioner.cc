@@ -18,21 +18,6 @@ namespace akmon
     constexpr unsigned int none = std::numeric_limits<unsigned int>::max();
 
 
-    // Whether a factor for one face does for another.
-    bool
-    alike(const CoulombFace &a, const CoulombFace &b)
-    {
-      constexpr double turned = 0.9, stiffened = 2.; // cosine; ratio
-
-      if (a.normal != b.normal || a.tangential != b.tangential)
-        return false;
-      if (a.tangential != CoulombFace::Tangential::circle)
-        return true;
-      const double ratio = (1. + a.curvature) / (1. + b.curvature);
-      return std::abs(a.along * b.along) > turned && ratio < stiffened && ratio > 1. / stiffened;
-    }
-
-
     std::vector<int>
     numbers_of_items(const std::size_t n, const MPI_Comm communicator)
     {
@@ -318,19 +303,22 @@ namespace akmon
           continue;
         for (unsigned int row = 0; row < directions[c].n; ++row)
           {
-            const auto force = delassus->scale()[i] * (directions[c].e[row] * delassus->frame(i));
+            const auto in_axes = [&](const Tensor<1, 3> &v) {
+              return delassus->scale()[i] * (v * delassus->frame(i));
+            };
+            const auto along = in_axes(directions[c].e[row]);
+            const auto force = in_axes(closed[c].face.lift(directions[c].e[row]));
             for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
               {
                 const unsigned int node = pairs[i]->nodes[k];
                 if (mobility.is_held(node))
                   continue;
-                const auto at_node = pairs[i]->at_node(k, force);
                 own_entries.push_back(
                   {mobility.is_common(node) ? numbers::invalid_dof_index : nodes.id(node),
                    c,
                    first_row[c] + row,
-                   at_node,
-                   mobility[node] * at_node / mass_factor});
+                   pairs[i]->at_node(k, force),
+                   mobility[node] * pairs[i]->at_node(k, along) / mass_factor});
               }
           }
       }
@@ -350,7 +338,14 @@ namespace akmon
   {
     constexpr double rounding = 1e-12; // of what is zero between orthogonal directions
 
+    group.symmetric = std::none_of(group.faces.begin(), group.faces.end(), [](const auto &face) {
+      return face.tangential == CoulombFace::Tangential::circle && face.mu != 0.;
+    });
     triplets.clear();
+    const auto add = [&](const Entry &row, const Entry &column) {
+      if (const double value = column.force * row.increment; std::abs(value) > rounding)
+        triplets.emplace_back(row.row, column.row, value);
+    };
     for (const unsigned int c : group.members)
       for (unsigned int j = 0; j < directions[c].n; ++j)
         {
@@ -367,10 +362,14 @@ namespace akmon
           of_node = entry;
         const bool rigid = entry->node == numbers::invalid_dof_index;
         for (auto other = rigid ? entry : of_node; other <= entry; ++other)
-          if (const double value = other->force * entry->increment; std::abs(value) > rounding)
-            triplets.emplace_back(entry->row, other->row, value);
+          {
+            add(*entry, *other);
+            if (!group.symmetric && other != entry)
+              add(*other, *entry);
+          }
       }
-    group.valid = group.cholesky.compute(group.n_rows, triplets);
+    group.valid = group.symmetric ? group.cholesky.compute(group.n_rows, triplets) :
+                                    group.lu.compute(group.n_rows, triplets);
   }
 
 
@@ -392,8 +391,10 @@ namespace akmon
         for (const unsigned int c : group->members)
           for (unsigned int row = 0; row < directions[c].n; ++row)
             values[first_row[c] + row] = all_values[c][row];
-        if (group->valid)
+        if (group->valid && group->symmetric)
           group->cholesky.solve_in_place(values);
+        else if (group->valid)
+          group->lu.solve_in_place(values);
         for (const unsigned int c : group->members)
           for (unsigned int row = 0; row < directions[c].n; ++row)
             all_values[c][row] = values[first_row[c] + row];

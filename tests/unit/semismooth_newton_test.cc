@@ -246,7 +246,9 @@ namespace
                                       norm_bound(problem.S),
                                       1e-7,
                                       tolerance,
-                                      limit},
+                                      tolerance,
+                                      limit,
+                                      false},
                                      t);
     return {result.n_applications, result.residual, result.converged};
   }

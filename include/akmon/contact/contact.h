@@ -234,6 +234,8 @@ namespace akmon
     solve_coupled(const NodalState &state);
     double
     follow_partners(const NodalState &state);
+    static void
+    count_on(ContactPair &pair, const double curvature);
     std::vector<Pose>
     reached_poses(const ContactNodes::Field *response) const;
     bool

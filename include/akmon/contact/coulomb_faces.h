@@ -104,4 +104,20 @@ namespace akmon
       return p + (p[0] * mu) * slip;
     }
   };
+
+
+  /// Whether what is a good step or factor for one face is so for another.
+  inline bool
+  alike(const CoulombFace &a, const CoulombFace &b)
+  {
+    constexpr double turned = 0.99, stiffened = 1.3, rougher = 0.03; // cosine; ratio; friction
+
+    if (a.normal != b.normal || a.tangential != b.tangential)
+      return false;
+    if (a.tangential != CoulombFace::Tangential::circle)
+      return true;
+    const double ratio = (1. + a.curvature) / (1. + b.curvature);
+    return a.along * b.along > turned && std::abs(a.mu - b.mu) < rougher && ratio < stiffened &&
+           ratio > 1. / stiffened;
+  }
 } // namespace akmon

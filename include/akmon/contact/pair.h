@@ -57,9 +57,10 @@ namespace akmon
     dealii::Tensor<1, 3> plane_normal; ///< of the partner if rigid, in its frame
     double plane_offset = 0.;          ///< the plane is plane_normal . X = plane_offset; length
 
-    double curvature    = 0.; ///< second-order part of the gap the step reaches; length
-    double target_gap   = 0.; ///< gap of which no more may be lost in this step; length
-    double normal_force = 0.; ///< t_n, on the slave along the normal; force
+    double curvature = 0.;               ///< second-order part of the gap the step reaches; length
+    double change = 0., correction = 0.; ///< what it lacked last in this step, and got; length
+    double target_gap   = 0.;            ///< gap of which no more may be lost in this step; length
+    double normal_force = 0.;            ///< t_n, on the slave along the normal; force
     dealii::Tensor<1, 3> tangential_force; ///< t_tau, on the slave; force
     bool sticks = false;
 

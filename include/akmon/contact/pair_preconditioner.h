@@ -3,6 +3,7 @@
 #include <akmon/contact/cholesky_factor.h>
 #include <akmon/contact/coulomb_faces.h>
 #include <akmon/contact/delassus.h>
+#include <akmon/contact/lu_factor.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/pair.h>
 
@@ -15,16 +16,15 @@
 namespace akmon
 {
   /**
-   * Inverse of the scaled Delassus operator in the free directions of its pairs: Cholesky factors
-   * of
+   * Inverse of the Jacobian of the contact problem, the scaled Delassus operator in the free
+   * directions of its pairs:
    *
-   *     S = E^T (A + shift) E + curvatures
+   *     J = E^T (A L + shift E) + curvatures
    *
    * where E are the free directions: the normal of a closed pair, both tangents where it sticks,
-   * the tangent of the circle where it slips. The Jacobian of the contact problem is
-   * S + E^T A (L - E): forces of slip follow normal forces. On a flat interface that rest acts on
-   * normal forces only and makes tangential motion only, its square is nothing, and GMRES needs two
-   * iterations.
+   * the tangent of the circle where it slips; L adds the force of slip that follows a normal force
+   * (CoulombFace::lift). Where nothing slips J is symmetric and has a Cholesky factor, elsewhere
+   * triangular factors with pivoting.
    *
    * A is singular where constraints repeat each other; the shift makes factors regular. A rigid
    * body couples all its pairs by six unknowns, which cost as many iterations at most: it counts on
@@ -67,7 +67,7 @@ namespace akmon
     void
     reinit(const std::vector<CoulombFace> &faces, const double shift);
 
-    /// z close to S^{-1} r in the free directions (collective).
+    /// z close to J^{-1} r in the free directions (collective).
     void
     apply(const Vector &r, Vector &z);
 
@@ -109,12 +109,15 @@ namespace akmon
       std::vector<CoulombFace> faces;
       std::vector<unsigned int> members; ///< numbers of its pairs among the closed ones
       unsigned int n_rows = 0;
-      CholeskyFactor cholesky;
-      bool valid = false; ///< whether S was positive definite
-      bool old   = false; ///< whether it was made in an earlier step
+      bool symmetric      = true; ///< no force of slip follows a normal force
+      CholeskyFactor cholesky;    ///< if so
+      LuFactor lu;                ///< if not
+      bool valid = false;         ///< whether J could be factorized
+      bool old   = false;         ///< whether it was made in an earlier step
     };
 
-    // What a unit force along a direction e of a pair does to a node: s_i N_ik e, and its motion.
+    // What a unit force along a direction e of a pair, and the force of slip that follows it, does
+    // to a node, s_i N_ik L e, and the motion that is the pair's along e, s_i M_k^{-1} N_ik e.
     struct Entry
     {
       ContactNodes::Id node; ///< invalid: of a rigid body

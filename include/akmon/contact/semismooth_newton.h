@@ -29,7 +29,8 @@ namespace akmon
    *
    * A may be singular where constraints repeat each other: a compliance c makes forces unique, w =
    * A t + c (t - t_0) + b, first with t_0 = 0, then with the first solution (Tikhonov's method,
-   * iterated once), which leaves an error of c^2. Where it is so small that the faces never settle,
+   * iterated once), which leaves an error of c^2; from the start with t_0 = t where that solves
+   * almost the same problem. Where it is so small that the faces never settle,
    * a larger one is taken with more iterations (the proximal point method).
    *
    * Operator has apply(t, y): y = A t (collective). Preconditioner has reinit(faces, c) and then
@@ -49,7 +50,9 @@ namespace akmon
       double norm;                  ///< an upper bound of the norm of A
       double compliance;            ///< c to begin with, relative to the diagonal of A: one
       double tolerance;             ///< of the residual
+      double sufficient;            ///< the same where faces do not settle
       unsigned int limit;           ///< of applications of A
+      bool start_is_reference;      ///< t_0 is the start, which solves almost the same problem
     };
 
     struct Result
@@ -74,24 +77,31 @@ namespace akmon
       problem        = &new_problem;
       n_applications = 0;
       n_relaxations  = 25;
+      tolerance      = problem->tolerance;
       if (!(problem->norm > 0.)) // nothing can move
         return {0, 0., true};
       constexpr double stiffer = 1e3; // where faces do not settle
 
       const std::size_t n = t.size();
+      if (!problem->start_is_reference)
+        faces.clear();
       faces.resize(n);
       for (Vector *const v : {&g, &r, &direction, &image})
         v->resize(n);
-      reference.assign(n, CoulombFace::Force());
+      if (problem->start_is_reference)
+        reference = t;
+      else
+        reference.assign(n, CoulombFace::Force());
       double residual = solve_with(problem->compliance, 4, false, t);
-      if (residual > problem->tolerance && n_applications < problem->limit)
+      if (residual > problem->sufficient && n_applications < problem->limit)
         {
+          tolerance = problem->sufficient;
           reference = t;
           residual  = solve_with(stiffer * problem->compliance, 20, true, t);
         }
       for (std::size_t i = 0; i < n; ++i) // what the tolerance left
         t[i] = CoulombFace::project(t[i], limit_of(i, t[i]));
-      return {n_applications, residual, residual <= problem->tolerance};
+      return {n_applications, residual, residual <= problem->sufficient};
     }
 
   private:
@@ -111,9 +121,9 @@ namespace akmon
       double residual = 0.;
       for (unsigned int k = 0; k <= most_references; ++k)
         {
-          const double enough = std::max(0.5 * problem->tolerance, part * error_of_compliance(t));
+          const double enough = std::max(0.5 * tolerance, part * error_of_compliance(t));
           residual            = solve_for_reference(enough, thoroughly, t);
-          if (residual > enough || error_of_compliance(t) <= problem->tolerance)
+          if (residual > enough || error_of_compliance(t) <= tolerance)
             break;
           refer_to(t);
         }
@@ -171,35 +181,48 @@ namespace akmon
 
     // Solve the problem with its present reference; returns the residual. For given friction limits
     // it is convex and always solved: where the faces of the true problem do not settle, limits
-    // follow normal forces in a loop around it.
+    // follow normal forces in a loop around it, until its faces do for the true problem.
     double
     solve_for_reference(const double enough, const bool thoroughly, Vector &t)
     {
-      constexpr unsigned int most_limits = 50;
-      constexpr double part              = 0.05; // of the residual, while limits still change
+      constexpr double part = 0.05; // of the residual, while limits still change
+      // Steps without improvement that tell of a circle.
+      constexpr unsigned int patience_of_limits = 8, patience_between = 3;
+      const unsigned int patience    = thoroughly ? 8 : 4;
+      const unsigned int most_limits = thoroughly ? 50 : 6;
 
       limits_are_given = false;
-      double residual  = find_faces(t, enough, thoroughly);
+      double residual  = find_faces(t, enough, patience, thoroughly);
       for (unsigned int k = 0;
-           thoroughly && k < most_limits && residual > enough && n_applications < problem->limit;
+           k < most_limits && residual > enough && n_applications < problem->limit;
            ++k)
         {
-          limits_are_given = false;
           limits.resize(t.size());
           for (std::size_t i = 0; i < t.size(); ++i)
             limits[i] = limit_of(i, t[i]);
-          limits_are_given = true;
-          residual         = measure(t);
+          limits_are_given            = true;
+          residual                    = measure(t);
+          const double while_changing = std::max(enough, part * residual);
+          if (find_faces(t, while_changing, patience_of_limits, thoroughly) > while_changing &&
+              !thoroughly)
+            break;
+          limits_are_given = false;
+          t_of_limits      = t;
+          residual         = find_faces(t, enough, patience_between, false);
           if (residual > enough)
-            find_faces(t, std::max(enough, part * residual), true);
+            {
+              t = t_of_limits;
+              compute_gradient(t);
+            }
         }
       limits_are_given = false;
       return residual;
     }
 
-    // Newton steps until the residual is small enough; returns it.
+    // Newton steps until the residual is small enough or has not improved for some of them; returns
+    // it.
     double
-    find_faces(Vector &t, const double enough, const bool thoroughly)
+    find_faces(Vector &t, const double enough, const unsigned int patience, const bool thoroughly)
     {
       struct Attempt
       {
@@ -208,7 +231,8 @@ namespace akmon
       };
       constexpr std::array<Attempt, 5> attempts = {
         {{1., 1e-5}, {1., 1e-9}, {0.1, 1e-9}, {2., 1e-9}, {0.5, 1e-9}}};
-      constexpr unsigned int patience = 8; // steps without improvement
+
+      constexpr double while_changing = 0.1; // reduction before faces settle
 
       double best = std::numeric_limits<double>::max();
       t_best      = t;
@@ -228,7 +252,7 @@ namespace akmon
                 }
               if (n_applications >= problem->limit)
                 break;
-              newton_step(t, attempt.reduction);
+              newton_step(t, faces_changed && !thoroughly ? while_changing : attempt.reduction);
             }
           t = t_best;
           compute_gradient(t);
@@ -262,20 +286,24 @@ namespace akmon
     {
       constexpr double rounding = 1e-14;
 
-      double lost = drift; // by updating the gradient instead of computing it
+      double lost  = drift; // by updating the gradient instead of computing it
+      bool changed = false;
       for (std::size_t i = 0; i < t.size(); ++i)
         {
           const auto before = t[i], q = before - rho * g[i];
-          faces[i] = CoulombFace::predicted_by(q,
+          const auto old = faces[i];
+          faces[i]       = CoulombFace::predicted_by(q,
                                                limit_of(i, q),
                                                limits_are_given ? 0. : problem->friction[i],
                                                rho);
-          t[i]     = faces[i].settle(before, limit_of(i, before));
+          changed        = changed || !alike(old, faces[i]);
+          t[i]           = faces[i].settle(before, limit_of(i, before));
           if ((t[i] - before).norm() > rounding * before.norm())
             lost = std::numeric_limits<double>::max();
         }
-      if (dealii::Utilities::MPI::max(lost, communicator) > 0.05 * problem->tolerance)
+      if (dealii::Utilities::MPI::max(lost, communicator) > 0.05 * tolerance)
         compute_gradient(t);
+      faces_changed = dealii::Utilities::MPI::max(int(changed), communicator) > 0;
     }
 
     // t + p with g + (A + c) p = 0 in the free components, where turning along a circle counts with
@@ -296,7 +324,7 @@ namespace akmon
         }
       const double norm = std::sqrt(reproducible_sums(squares, communicator)[0]);
       weighted          = dealii::Utilities::MPI::max(weighted, communicator);
-      const double goal = weighted > 0. ? 0.15 * problem->tolerance / weighted : 1.;
+      const double goal = weighted > 0. ? 0.15 * tolerance / weighted : 1.;
       precondition.reinit(faces, compliance);
       gmres.solve([&](Vector &p, Vector &of_p, Vector &y) { apply_on_faces(p, of_p, y); },
                   [&](const Vector &v, Vector &z) {
@@ -345,12 +373,14 @@ namespace akmon
     unsigned int n_relaxations  = 0;  ///< in the next relaxation
     double compliance           = 0.; ///< c
     double step                 = 0.;
-    double drift                = 0.; ///< rounding of g since it was computed
+    double tolerance            = 0.;   ///< of the residual, at present
+    bool faces_changed          = true; ///< by the last choice of them
+    double drift                = 0.;   ///< rounding of g since it was computed
     bool limits_are_given       = false;
     std::vector<double> limits; ///< of friction, if given
     std::vector<CoulombFace> faces;
     Vector g; ///< A t + b + c (t - t_0)
-    Vector reference, t_best, r, direction, image;
+    Vector reference, t_best, t_of_limits, r, direction, image;
     std::vector<std::vector<double>> squares; ///< of r, in a list of their own
   };
 } // namespace akmon
