@@ -87,7 +87,7 @@ namespace akmon
                                                             initial_cell_frequency;
     refuse_body_overlap(discretization);
     contact.search(state);
-    contact.refuse_initial_overlap(state);
+    contact.refuse_initial_overlap();
     refuse_unstable_step();
     // The probes are the only part of the output that the input can make fail.
     Probes(parameters.probes, discretization, internal_forces, integrator);

@@ -98,14 +98,12 @@ namespace akmon
   void
   Contact::solve_coupled(const NodalState &state)
   {
-    // Rigid shapes are exact: so are gaps from them.
     constexpr unsigned int most_rounds = 8;
-    const double tolerance = bodies.empty() ? 1e-7 : 1e-12; // of gaps, over the cell size
 
     coupled.solve(dx_free);
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
-        if (Utilities::MPI::max(follow_partners(state), discretization.communicator()) <= tolerance)
+        if (Utilities::MPI::max(follow_partners(state), discretization.communicator()) <= 1.)
           return;
         set_target_gaps(state);
         coupled.solve(dx_free);
@@ -136,6 +134,8 @@ namespace akmon
   bool
   Contact::reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
   {
+    if (pair.of_edges)
+      return edge_searches[pair.search].gap_at(x_reached, pair, gap);
     if (pair.interface < contacts.size())
       return pair.n_nodes > 1 && searches[pair.search].gap_at(x_reached, pair, gap);
     if (pair.slave == numbers::invalid_unsigned_int)
@@ -153,12 +153,14 @@ namespace akmon
 
   // While segments turn under a slave, surfaces are curved or bodies rotate, n . G dx + g misses a
   // part of second order of the gap that the step reaches. Measures it for all pairs that may
-  // close; returns by how much of the cell size it is not what the solution counted on.
+  // close; returns how far it is from what the solution counted on, over what is tolerated.
   double
   Contact::follow_partners(const NodalState &state)
   {
     if (searches.empty() && bodies.empty())
       return 0.;
+    // Of the cell size. Rigid shapes are exact: so are gaps from them; normals of edges turn fast.
+    const double of_faces = bodies.empty() ? 1e-7 : 1e-12, of_edges = std::min(of_faces, 1e-10);
     const auto &dx_contact = coupled.increments();
     x_reached              = x;
     for (unsigned int i = 0; i < nodes.size(); ++i)
@@ -177,7 +179,9 @@ namespace akmon
         const double curvature = std::clamp(reached - linear, -bound, bound);
         const double allowed   = std::min(0., pair->gap + release(*pair, state));
         if (pair->normal_force > 0. || linear + curvature < allowed)
-          largest = std::max(largest, std::abs(curvature - pair->curvature) / pair->size);
+          largest = std::max(largest,
+                             std::abs(curvature - pair->curvature) /
+                               ((pair->of_edges ? of_edges : of_faces) * pair->size));
         pair->curvature = curvature;
       }
     return largest;

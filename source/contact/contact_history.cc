@@ -2,7 +2,6 @@
 #include <akmon/contact/contact.h>
 
 #include <algorithm>
-#include <tuple>
 
 // What contact carries from step to step, in checkpoints.
 
@@ -14,7 +13,7 @@ namespace akmon
   {
     // A pair's row in a checkpoint. Slaves go by their global node numbers, which are the same on
     // any number of ranks.
-    constexpr std::size_t row_width = 10;
+    constexpr std::size_t row_width = 14;
 
 
     void
@@ -26,9 +25,12 @@ namespace akmon
       row[3] = pair.normal_force;
       for (unsigned int d = 0; d < 3; ++d)
         row[4 + d] = pair.tangential_force[d];
-      row[7] = pair.sticks ? 1. : 0.;
-      row[8] = pair.slot;
-      row[9] = pair.curvature;
+      row[7]  = pair.sticks ? 1. : 0.;
+      row[8]  = pair.slot;
+      row[9]  = pair.curvature;
+      row[10] = pair.of_edges ? 1. : 0.;
+      for (unsigned int k = 0; k < 3; ++k)
+        row[11 + k] = pair.others[k];
     }
 
 
@@ -44,6 +46,9 @@ namespace akmon
       pair.sticks    = row[7] != 0.;
       pair.slot      = row[8];
       pair.curvature = row[9];
+      pair.of_edges  = row[10] != 0.;
+      for (unsigned int k = 0; k < 3; ++k)
+        pair.others[k] = ContactNodes::Id(row[11 + k]);
       return pair;
     }
   } // namespace
@@ -52,11 +57,12 @@ namespace akmon
   void
   Contact::save(CheckpointWriter &checkpoint) const
   {
-    // The others start from nothing, and so do pairs of two rigid bodies.
+    // The others start from nothing, and so do pairs of two rigid bodies. Edges that have passed
+    // each other are known by it.
     std::vector<const ContactPair *> carrying;
     for (const auto &pair : pairs)
       if (pair.slave != numbers::invalid_unsigned_int &&
-          (pair.normal_force != 0. || pair.curvature != 0.))
+          (pair.normal_force != 0. || pair.curvature != 0. || (pair.of_edges && pair.gap < 0.)))
         carrying.push_back(&pair);
     checkpoint.table("contact_pairs",
                      carrying.size(),
@@ -86,8 +92,7 @@ namespace akmon
                       pairs.back().slave_id = nodes.id_of_local(pairs.back().slave);
                     });
     std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-      return std::tie(a.interface, a.reversed, a.slave_id, a.slot) <
-             std::tie(b.interface, b.reversed, b.slave_id, b.slot);
+      return a.key() < b.key();
     });
     bonds->restore(checkpoint);
     forget_shortcuts();

@@ -14,7 +14,7 @@ namespace akmon
   using namespace dealii;
 
   ContactReport
-  Contact::report(const NodalState &state) const
+  Contact::report() const
   {
     ContactReport report;
     report.iterations = coupled.iterations();
@@ -32,8 +32,8 @@ namespace akmon
         if (relative > report.max_penetration_relative)
           {
             report.max_penetration_relative = relative;
-            report.place   = Point<3>(rigid ? pair.place : at_node(state.x, pair.slave));
-            report.deepest = pair.slave;
+            report.place                    = Point<3>(pair.place);
+            report.deepest                  = pair.slave;
           }
         if (!(pair.normal_force > 0.))
           continue;
@@ -46,8 +46,7 @@ namespace akmon
         const auto friction = sign * pair.tangential_force;
         interface.normal_force += normal;
         interface.friction_force += friction;
-        interface.moment += cross_product_3d(rigid ? pair.place : at_node(state.x, pair.slave),
-                                             normal + friction);
+        interface.moment += cross_product_3d(pair.place, normal + friction);
       }
     if (Utilities::MPI::this_mpi_process(discretization.communicator()) == 0) // all know the bonds
       for (unsigned int i = 0; i < contacts.size(); ++i)
@@ -66,7 +65,7 @@ namespace akmon
   {
     std::vector<Patch> result(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
-      if (pair.normal_force > 0. && pair.slave != numbers::invalid_unsigned_int)
+      if (pair.normal_force > 0. && !pair.of_edges && pair.slave != numbers::invalid_unsigned_int)
         {
           const bool both_sides = solver.type != ContactSolver::Type::decoupled &&
                                   pair.interface < contacts.size() &&
@@ -113,7 +112,7 @@ namespace akmon
 
 
   void
-  Contact::refuse_initial_overlap(const NodalState &state) const
+  Contact::refuse_initial_overlap() const
   {
     // What rounding of coordinates in a mesh file may do is tolerated, and released slowly.
     constexpr double tolerated = 1e-6;
@@ -126,7 +125,7 @@ namespace akmon
     if (deepest)
       {
         const bool rigid = deepest->slave == numbers::invalid_unsigned_int;
-        const auto place = rigid ? deepest->place : at_node(state.x, deepest->slave);
+        const auto place = deepest->place;
         message          = "[" +
                   std::string(deepest->interface < contacts.size() ? "Contact/" : "Obstacles/") +
                   law_of(*deepest).name + "] " +

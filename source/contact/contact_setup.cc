@@ -33,6 +33,26 @@ namespace akmon
     }
 
 
+    // One for every contact, in their order; none with the decoupled solver, which takes pairs that
+    // share nodes for each other's strangers.
+    std::vector<EdgeSearch>
+    make_edge_searches(const Discretization &discretization,
+                       const ContactSolver &solver,
+                       const std::vector<SurfaceContact> &contacts,
+                       const std::vector<SurfaceSearch> &searches)
+    {
+      std::vector<EdgeSearch> edge_searches;
+      if (solver.type != ContactSolver::Type::decoupled)
+        for (const auto &search : searches)
+          if (search.get_interface() == edge_searches.size())
+            edge_searches.emplace_back(discretization,
+                                       contacts[edge_searches.size()],
+                                       search,
+                                       edge_searches.size());
+      return edge_searches;
+    }
+
+
     std::vector<ObstacleSearch>
     make_obstacle_searches(const Discretization &discretization,
                            const std::vector<RigidBody> &bodies,
@@ -108,6 +128,7 @@ namespace akmon
     , contacts(contacts)
     , bodies(bodies)
     , searches(make_searches(discretization, solver, contacts))
+    , edge_searches(make_edge_searches(discretization, solver, contacts, searches))
     , obstacle_searches(make_obstacle_searches(discretization, bodies, contacts.size()))
     , rigid_touches(make_rigid_touches(bodies, contacts.size()))
     , rigid_nodes(bodies)

@@ -34,6 +34,7 @@ namespace akmon
   {
     constexpr double nearly_flat = 0.99875; // cosine of 0.05
     constexpr double part        = 0.25;    // of the reach: what slaves slide in a step at most
+    constexpr double in_front    = -1e-6;   // of the cell size, for rounding: else no valley
 
     if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
       return;
@@ -63,7 +64,8 @@ namespace akmon
           neighbour.normal     = face_normal(x, neighbour);
           neighbour.gap        = neighbour.normal * neighbour.projection.offset;
           const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
-          if (neighbour.gap <= reach && beside.norm() <= part * reach)
+          if (neighbour.gap <= reach && neighbour.gap >= in_front * slaves[slave].size &&
+              beside.norm() <= part * reach)
             add_to_corner(first, make_pair(x, slave, neighbour), pairs);
         }
     // The mean normal of an edge is none of its faces'.

@@ -74,8 +74,7 @@ namespace akmon
       const ContactPair &pair = *pairs[i];
       if (k >= pair.n_points())
         return std::abs(pair.weights[k]) * pair.radii[k - pair.n_points()].norm() * scales[i];
-      const double of_lever = pair.levered && k > 0 ? pair.lever.norm() * pair.arms[k - 1].norm() :
-                                                      0.;
+      const double of_lever = pair.levered ? pair.lever.norm() * pair.arms[k].norm() : 0.;
       return (std::abs(pair.weights[k]) + of_lever) * scales[i];
     };
     clear();

@@ -85,7 +85,7 @@ namespace akmon
     std::vector<Key> keys;
     keys.reserve(factor.members.size());
     for (const unsigned int i : factor.members)
-      keys.push_back({pairs[i]->interface, pairs[i]->slot, pairs[i]->reversed, pairs[i]->slave_id});
+      keys.push_back(pairs[i]->key());
     if (factor.valid && keys == factor.keys)
       return;
     factor.keys = std::move(keys);

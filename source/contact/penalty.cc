@@ -116,8 +116,7 @@ namespace akmon
       const double root = std::sqrt(spring(pair));
       if (k >= pair.n_points())
         return std::abs(pair.weights[k]) * pair.radii[k - pair.n_points()].norm() * root;
-      const double of_lever = pair.levered && k > 0 ? pair.lever.norm() * pair.arms[k - 1].norm() :
-                                                      0.;
+      const double of_lever = pair.levered ? pair.lever.norm() * pair.arms[k].norm() : 0.;
       return (std::abs(pair.weights[k]) + of_lever) * root;
     };
     ContactNodes::Field sums;

@@ -4,6 +4,7 @@
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/coupled_solver.h>
+#include <akmon/contact/edge_search.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/nodal_areas.h>
 #include <akmon/contact/obstacle_search.h>
@@ -140,7 +141,7 @@ namespace akmon
     }
 
     ContactReport
-    report(const NodalState &state) const;
+    report() const;
 
     /// Extents of the contact of an interface.
     struct Patch
@@ -205,13 +206,15 @@ namespace akmon
 
     /// Throws InputError naming the place and depth if bodies overlap in the initial configuration.
     void
-    refuse_initial_overlap(const NodalState &state) const;
+    refuse_initial_overlap() const;
 
   private:
     double
     reach_of_step(const NodalState &state, const double least_radius) const;
     void
     rebuild_candidates(const NodalState &state, const double reach);
+    double
+    radius_of_edges(const unsigned int interface) const;
     double
     fastest_motion(const NodalState &state) const;
     void
@@ -259,6 +262,7 @@ namespace akmon
     const std::vector<SurfaceContact> &contacts;
     std::vector<RigidBody> &bodies;
     std::vector<SurfaceSearch> searches;
+    std::vector<EdgeSearch> edge_searches;         ///< one per contact, or none
     std::vector<ObstacleSearch> obstacle_searches; ///< one per body
     std::vector<RigidTouch> rigid_touches;         ///< of bodies that may meet
     const RigidNodes rigid_nodes;

@@ -6,6 +6,7 @@
 #include <akmon/contact/pair.h>
 
 #include <Eigen/SparseCholesky>
+#include <utility>
 #include <vector>
 
 namespace akmon
@@ -61,20 +62,7 @@ namespace akmon
     apply(const Vector &r, Vector &z);
 
   private:
-    // Which pair a row of the operator belongs to, beyond the step.
-    struct Key
-    {
-      unsigned int interface, slot;
-      bool reversed;
-      ContactNodes::Id slave;
-
-      bool
-      operator==(const Key &other) const
-      {
-        return interface == other.interface && slot == other.slot && reversed == other.reversed &&
-               slave == other.slave;
-      }
-    };
+    using Key = decltype(std::declval<const ContactPair &>().key());
 
     struct Factor
     {
