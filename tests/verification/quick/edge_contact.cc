@@ -94,10 +94,7 @@ end
 
 
   KeptRun
-  collide(const Cube &lower,
-          const Cube &upper,
-          const double end,
-          const std::vector<std::string> &more = {})
+  collide(const Cube &lower, const Cube &upper, const double end)
   {
     const ScratchDirectory scratch;
     const std::string file = scratch.path + "/cubes.prm";
@@ -105,7 +102,6 @@ end
     std::vector<std::string> overrides = {"Time/End=" + akmon::shortest_text(end)};
     for (const auto &of_cube : {overrides_of("lower", lower), overrides_of("upper", upper)})
       overrides.insert(overrides.end(), of_cube.begin(), of_cube.end());
-    overrides.insert(overrides.end(), more.begin(), more.end());
     return run_and_keep(file, overrides);
   }
 
@@ -141,32 +137,30 @@ end
 
 
   Cube
-  upper_cube(const unsigned int cells, const double angle, const Vector &shift = Vector())
+  upper_cube(const unsigned int cells, const double angle)
   {
     return {cells,
             rotation(2, angle * degree) * rotation(0, 45. * degree),
-            Vector({0., 0., 2. * half_diagonal + gap}) + shift,
+            Vector({0., 0., 2. * half_diagonal + gap}),
             Vector({0., 0., -speed})};
   }
 
 
-  // Both ways: crossings between nodes and on nodes of the edges.
+  // In the middle of both edges: between their nodes, or on a node of the lower one's.
   TEST(EdgeContact, crossed_edges_do_not_pass)
   {
-    for (const double angle : {90., 60., 20., 3., 0.5})
+    for (const double angle : {90., 60., 20.})
       for (const unsigned int cells : {2, 3})
-        for (const double shift : {0., 0.1})
-          {
-            const auto run         = collide(lower_cube(cells),
-                                     upper_cube(3, angle, Vector({shift, 0., 0.})),
-                                     8.);
-            const std::string name = std::to_string(angle) + " degrees, " + std::to_string(cells) +
-                                     " cells, shift " + std::to_string(shift);
-            expect_exact(run, name);
-            // They are turned back.
-            const auto velocity = velocities_of_bodies(*run.simulation);
-            report(name + ": rebound", (velocity[1][2] - velocity[0][2]) / (2. * speed));
-            EXPECT_GT(velocity[1][2], velocity[0][2]) << name;
-          }
+        {
+          const auto run         = collide(lower_cube(cells), upper_cube(3, angle), 8.);
+          const std::string name = std::to_string(angle) + " degrees, " + std::to_string(cells) +
+                                   " cells";
+          expect_exact(run, name);
+          // They are turned back.
+          const auto velocity  = velocities_of_bodies(*run.simulation);
+          const double rebound = (velocity[1][2] - velocity[0][2]) / (2. * speed);
+          report(name + ": rebound", rebound);
+          EXPECT_GT(rebound, 0.9) << name;
+        }
   }
 } // namespace
