@@ -123,6 +123,9 @@ namespace akmon
       prm.enter_subsection("Checkpoint");
       CheckpointParameters::declare(prm);
       prm.leave_subsection();
+      prm.enter_subsection("Parallel");
+      PartitionParameters::declare(prm);
+      prm.leave_subsection();
     }
 
 
@@ -298,6 +301,7 @@ namespace akmon
       result.probes    = parse_items<Probe>(prm, names, "Probes");
       parse_section(prm, "Output", result.output);
       parse_section(prm, "Checkpoint", result.checkpoint);
+      parse_section(prm, "Parallel", result.partition);
       check_materials(result);
       std::ostringstream as_used;
       prm.print_parameters(as_used, ParameterHandler::PRM);

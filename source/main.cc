@@ -2,6 +2,7 @@
 #include <akmon/checkpoint/restart.h>
 #include <akmon/exit_status.h>
 #include <akmon/parameters.h>
+#include <akmon/signal_watch.h>
 #include <akmon/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -73,13 +74,20 @@ namespace
   {
     try
       {
-        akmon::Simulation simulation(akmon::Case::read(start.file, start.overrides),
-                                     MPI_COMM_WORLD);
-        if (!only_validate)
-          return simulation.run(start.checkpoint);
-        simulation.warn_of_oddities();
-        if (root)
-          std::cout << start.file << " is valid\n";
+        const auto parameters = akmon::Case::read(start.file, start.overrides);
+        if (only_validate)
+          {
+            akmon::Simulation(parameters, MPI_COMM_WORLD).warn_of_oddities();
+            if (root)
+              std::cout << start.file << " is valid\n";
+            return;
+          }
+        const akmon::SignalWatch signals; // while a part of the run gives way to the next one, too
+        akmon::Continuation next;
+        next.checkpoint = start.checkpoint;
+        do
+          next = akmon::Simulation(parameters, MPI_COMM_WORLD, false, next).run(next.checkpoint);
+        while (!next.checkpoint.empty());
       }
     catch (const akmon::InputError &error)
       {

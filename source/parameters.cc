@@ -94,6 +94,23 @@ namespace akmon
   }
 
 
+  std::optional<double>
+  get_number_or(const std::string &word,
+                dealii::ParameterHandler &prm,
+                const std::string &section,
+                const std::string &key,
+                const dealii::Patterns::Double &pattern,
+                const std::string &numbers)
+  {
+    const std::string text = prm.get(key);
+    if (text == word)
+      return {};
+    if (!pattern.match(text))
+      throw InputError(section, key, text, "allowed are '" + word + "' and " + numbers);
+    return dealii::Utilities::string_to_double(text);
+  }
+
+
   void
   declare_vector(dealii::ParameterHandler &prm,
                  const std::string &key,

@@ -55,11 +55,15 @@ namespace akmon
   }
 
 
-  Simulation::Simulation(const Case &parameters, MPI_Comm communicator, const bool quiet)
+  Simulation::Simulation(const Case &parameters,
+                         MPI_Comm communicator,
+                         const bool quiet,
+                         const Continuation &from)
     : parameters(parameters)
     , communicator(communicator)
+    , continuation(from)
     , screen(communicator, quiet)
-    , discretization(parameters.bodies, parameters.materials, communicator)
+    , discretization(parameters.bodies, parameters.materials, communicator, from.extra_work)
     , state(discretization)
     , conditions(discretization, this->parameters.prescribed_motions)
     , rigid_bodies(make_rigid_bodies(this->parameters))
@@ -87,16 +91,17 @@ namespace akmon
                                                             initial_cell_frequency;
     refuse_body_overlap(discretization);
     contact.search(state);
-    contact.refuse_initial_overlap();
+    contact.refuse_initial_overlap(state);
     refuse_unstable_step();
     // The probes are the only part of the output that the input can make fail.
     Probes(parameters.probes, discretization, internal_forces, integrator);
   }
 
 
-  void
+  Continuation
   Simulation::run(const std::string &checkpoint)
   {
+    continuation.checkpoint.clear();
     if (checkpoint.empty())
       prepare_output_directory(parameters.output_directory, communicator);
     checkpoint_tick = parameters.checkpoint.tick;
@@ -123,6 +128,8 @@ namespace akmon
           {
             step();
             write_checkpoint_if_due();
+            if (!continuation.checkpoint.empty())
+              return continuation;
           }
       }
     catch (const RunError &error)
@@ -134,6 +141,7 @@ namespace akmon
         throw;
       }
     stop(ExitStatus::done);
+    return continuation;
   }
 
 
@@ -362,6 +370,7 @@ namespace akmon
                 double(n_cells) * (state.step - first_step) / wall.count());
     summary.set("stage_seconds", seconds);
     summary.set("stage_imbalance", imbalance);
+    summary.set("repartitions", continuation.n_repartitions);
     summary.set("eroded_cells", n_eroded);
     summary.set("added_mass_rel", added_mass);
     summary.set("max_penetration", extremes.penetration);

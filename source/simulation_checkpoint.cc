@@ -58,6 +58,8 @@ namespace akmon
                      level_text() + "stopped by SIGTERM; akmon --restart '" + directory +
                        "' goes on");
     requested = SignalWatch::none;
+    if (wants_repartition())
+      continuation.checkpoint = checkpoint_path(directory, state.step);
   }
 
 

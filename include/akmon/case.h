@@ -6,6 +6,7 @@
 #include <akmon/material/material.h>
 #include <akmon/model/body.h>
 #include <akmon/model/essential_conditions.h>
+#include <akmon/model/partition.h>
 #include <akmon/output/output_parameters.h>
 #include <akmon/rigid/obstacle.h>
 #include <akmon/time/step_control.h>
@@ -36,6 +37,7 @@ namespace akmon
     std::vector<Probe> probes;
     OutputParameters output;
     CheckpointParameters checkpoint;
+    PartitionParameters partition;
     std::string as_used; ///< every parameter, in the form of a prm file
 
     /**

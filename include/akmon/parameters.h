@@ -1,8 +1,10 @@
 #pragma once
 
 #include <deal.II/base/parameter_handler.h>
+#include <deal.II/base/patterns.h>
 #include <deal.II/base/tensor.h>
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -40,6 +42,16 @@ namespace akmon
   /// not three.
   dealii::Tensor<1, 3>
   get_vector(dealii::ParameterHandler &prm, const std::string &section, const std::string &key);
+
+  /// The number of an entry that is one that @p pattern admits (@p numbers in words), or @p word,
+  /// which gives none. Throws InputError (section, key) for anything else.
+  std::optional<double>
+  get_number_or(const std::string &word,
+                dealii::ParameterHandler &prm,
+                const std::string &section,
+                const std::string &key,
+                const dealii::Patterns::Double &pattern,
+                const std::string &numbers);
 
   /// Declare an entry of three numbers.
   void

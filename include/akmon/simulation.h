@@ -26,16 +26,21 @@ namespace akmon
     /**
      * Build the model without writing anything. Throws InputError.
      * @param quiet  nothing but warnings on the screen
+     * @param from   what an earlier part of the run tells about the partition
      */
-    Simulation(const Case &parameters, MPI_Comm communicator, const bool quiet = false);
+    Simulation(const Case &parameters,
+               MPI_Comm communicator,
+               const bool quiet         = false,
+               const Continuation &from = {});
 
     /**
-     * Run to the end. Throws RunError, after the last state was written, when the run must not go
-     * on.
+     * Run to the end, or to a checkpoint from which another Simulation is to go on with cells
+     * shared out anew, as the result tells. Throws RunError, after the last state was written, when
+     * the run must not go on.
      * @param checkpoint  to go on from, in the case's output directory; empty: from the beginning.
      *                    Throws InputError before anything is written if it cannot be.
      */
-    void
+    Continuation
     run(const std::string &checkpoint = "");
 
     /// Show what looks like a mistake in the case (collective); run() does it too.
@@ -105,6 +110,10 @@ namespace akmon
     write_checkpoint_if_due();
     void
     write_checkpoint(const std::string &path, const bool for_looking_only);
+    bool
+    wants_repartition();
+    ExtraWork
+    measure_extra_work(const double seconds_of_forces, const double seconds_of_search) const;
     void
     leave_evidence();
     void
@@ -130,6 +139,7 @@ namespace akmon
 
     const Case parameters;
     const MPI_Comm communicator;
+    Continuation continuation;
     Screen screen;
     StageTimer timer;
 
@@ -149,6 +159,7 @@ namespace akmon
     OutputTick checkpoint_tick;
     SignalWatch::Request requested = SignalWatch::none; ///< in this step, the same on all ranks
     std::chrono::steady_clock::time_point wall_start, last_checkpoint;
+    double forces_before = 0., search_before = 0.; ///< seconds on this rank at the last checkpoint
     unsigned long n_cells = 0, first_step = 0;     ///< first_step: where this part of the run began
     double added_mass      = 0.;                   ///< by mass scaling, over the mass there was
     unsigned long n_eroded = 0, n_eroded_here = 0; ///< of all ranks, of this one

@@ -22,6 +22,15 @@ namespace akmon
     constexpr std::size_t metadata_bytes = 1 << 16; ///< more than HDF5 adds around a table
 
 
+    // Of a table with so many columns, one at least.
+    std::size_t
+    rows_at_a_time(const std::size_t width)
+    {
+      return std::max<std::size_t>(1,
+                                   slab_bytes / std::max<std::size_t>(1, width * sizeof(double)));
+    }
+
+
     hid_t
     file_access(const MPI_Comm comm)
     {
@@ -168,10 +177,7 @@ namespace akmon
     const Hdf5Id transfer(H5Pcreate(H5P_DATASET_XFER), H5Pclose, what);
     if (counts.size() > 1)
       check_hdf5(H5Pset_dxpl_mpio(transfer, H5FD_MPIO_COLLECTIVE), what);
-    const std::size_t slab   = std::max<std::size_t>(1,
-                                                   slab_bytes /
-                                                     std::max<std::size_t>(1,
-                                                                           width * sizeof(double)));
+    const std::size_t slab   = rows_at_a_time(width);
     const std::size_t rounds = (*std::max_element(counts.begin(), counts.end()) + slab - 1) / slab;
     std::vector<double> values;
     std::string failure;
@@ -318,10 +324,7 @@ namespace akmon
     const std::size_t width = size(name).second;
     const Hdf5Id dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose, what);
     const Hdf5Id space(H5Dget_space(dataset), H5Sclose, what);
-    const std::size_t slab = std::max<std::size_t>(1,
-                                                   slab_bytes /
-                                                     std::max<std::size_t>(1,
-                                                                           width * sizeof(double)));
+    const std::size_t slab = rows_at_a_time(width);
     std::vector<double> values;
     for (std::size_t row = begin; row < end;)
       {

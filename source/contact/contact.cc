@@ -1,9 +1,11 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/edge_search.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -65,6 +67,7 @@ namespace akmon
     x_reached = x; // as far as is known
     for (unsigned int i = 0; i < nodes.first_common(); ++i)
       x_reached.add(i, dx[i]);
+    const auto begin = std::chrono::steady_clock::now();
     for (unsigned int i = 0; i < searches.size(); ++i)
       {
         searches[i].find_pairs(state.x, x, reach, travelled, pairs);
@@ -87,6 +90,8 @@ namespace akmon
                                  pairs.end(),
                                  [&](const ContactPair &pair) { return bonds->hold(pair); }),
                   pairs.end());
+    seconds_of_search += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
+                           .count();
     if (solver.type != ContactSolver::Type::decoupled)
       warm_start(previous);
   }

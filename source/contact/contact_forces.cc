@@ -1,5 +1,8 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/edge_search.h>
+#include <akmon/contact/nodal_sums.h>
+#include <akmon/contact/reproducible_sums.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -208,10 +211,16 @@ namespace akmon
       x_reached.add(i, dx_free[i]);
     ContactNodes::Field force;
     nodes.make(force);
-    for (const auto &pair : pairs)
+    std::vector<ContactPair *> active;
+    for (auto &pair : pairs)
       if (pair.normal_force > 0.)
-        pair.distribute(pair.force(), force);
-    nodes.add_to_owners(force);
+        active.push_back(&pair);
+    NodalSums(nodes).add(
+      active,
+      [&](const std::size_t i, const unsigned int k) {
+        return active[i]->at_node(k, active[i]->force());
+      },
+      force);
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
       x_reached.add(i, mobility[i] * force[i] / effective_mass_factor);
 
@@ -341,27 +350,27 @@ namespace akmon
   {
     if (rigid_nodes.n == 0)
       return;
-    std::vector<Tensor<1, 3>> normal(rigid_nodes.n), tangential(rigid_nodes.n);
-    for (const auto &pair : pairs)
-      if (pair.normal_force > 0.)
-        for (unsigned int k = 0; k < pair.n_nodes; ++k)
-          if (pair.nodes[k] >= nodes.first_common())
-            {
-              const unsigned int i = pair.nodes[k] - nodes.first_common();
-              normal[i] += pair.at_node(k, pair.normal_force * pair.normal);
-              tangential[i] += pair.at_node(k, pair.tangential_force);
-            }
-    const auto sum = [&](std::vector<Tensor<1, 3>> &of_rank) {
-      for (auto &value : of_rank)
-        value = Utilities::MPI::sum(value, discretization.communicator());
+    std::vector<std::vector<double>> addends(6 * rigid_nodes.n); // normal and tangential
+    visit_rigid_loads([&](const unsigned int,
+                          const unsigned int i,
+                          const Tensor<1, 3> &normal,
+                          const Tensor<1, 3> &tangential) {
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          addends[6 * i + d].push_back(normal[d]);
+          addends[6 * i + 3 + d].push_back(tangential[d]);
+        }
+    });
+    const auto sums   = reproducible_sums(addends, discretization.communicator());
+    const auto sum_at = [&](const unsigned int first) {
+      return Tensor<1, 3>({sums[first], sums[first + 1], sums[first + 2]});
     };
-    sum(normal);
-    sum(tangential);
     for (unsigned int i = 0; i < bodies.size(); ++i)
       if (bodies[i].moves())
         {
           const unsigned int n = rigid_nodes.first[i];
-          bodies[i].add_contact({normal[n], normal[n + 1]}, {tangential[n], tangential[n + 1]});
+          bodies[i].add_contact({sum_at(6 * n), sum_at(6 * n + 6)},
+                                {sum_at(6 * n + 3), sum_at(6 * n + 9)});
         }
   }
 } // namespace akmon

@@ -13,7 +13,7 @@ namespace akmon
   {
     // A pair's row in a checkpoint. Slaves go by their global node numbers, which are the same on
     // any number of ranks.
-    constexpr std::size_t row_width = 14;
+    constexpr std::size_t row_width = 14, of_nodes_only = 10; // before there were pairs of edges
 
 
     void
@@ -35,7 +35,7 @@ namespace akmon
 
 
     ContactPair
-    from_row(const double *const row)
+    from_row(const double *const row, const std::size_t width)
     {
       ContactPair pair{};
       pair.interface    = row[0];
@@ -46,7 +46,9 @@ namespace akmon
       pair.sticks    = row[7] != 0.;
       pair.slot      = row[8];
       pair.curvature = row[9];
-      pair.of_edges  = row[10] != 0.;
+      if (width == of_nodes_only)
+        return pair;
+      pair.of_edges = row[10] != 0.;
       for (unsigned int k = 0; k < 3; ++k)
         pair.others[k] = ContactNodes::Id(row[11 + k]);
       return pair;
@@ -57,12 +59,12 @@ namespace akmon
   void
   Contact::save(CheckpointWriter &checkpoint) const
   {
-    // The others start from nothing, and so do pairs of two rigid bodies. Edges that have passed
-    // each other are known by it.
+    // The others start from nothing, and so do pairs of two rigid bodies. Edges remain a pair where
+    // they would not become one.
     std::vector<const ContactPair *> carrying;
     for (const auto &pair : pairs)
       if (pair.slave != numbers::invalid_unsigned_int &&
-          (pair.normal_force != 0. || pair.curvature != 0. || (pair.of_edges && pair.gap < 0.)))
+          (pair.normal_force != 0. || pair.curvature != 0. || pair.of_edges))
         carrying.push_back(&pair);
     checkpoint.table("contact_pairs",
                      carrying.size(),
@@ -77,16 +79,17 @@ namespace akmon
   void
   Contact::restore(const CheckpointReader &checkpoint)
   {
-    const auto &owned = discretization.partitioner->locally_owned_range();
+    const auto &owned          = discretization.partitioner->locally_owned_range();
+    const auto [n_rows, width] = checkpoint.size("contact_pairs");
     pairs.clear();
     checkpoint.rows("contact_pairs",
                     0,
-                    checkpoint.size("contact_pairs").first,
-                    [&](const std::size_t, const double *const row) {
+                    n_rows,
+                    [&, width = width](const std::size_t, const double *const row) {
                       const types::global_dof_index first_dof = 3 * row[2];
                       if (!owned.is_element(first_dof))
                         return;
-                      pairs.push_back(from_row(row));
+                      pairs.push_back(from_row(row, width));
                       pairs.back().slave = discretization.partitioner->global_to_local(first_dof) /
                                            3;
                       pairs.back().slave_id = nodes.id_of_local(pairs.back().slave);

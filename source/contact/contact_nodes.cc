@@ -124,57 +124,9 @@ namespace akmon
   void
   ContactNodes::send_to_owners(std::vector<Contribution> &contributions) const
   {
-    if (parallel)
-      {
-        static_assert(std::is_trivially_copyable_v<Contribution>);
-        constexpr int tag = 4711;
-
-        // The partners are those of the ghost exchange, the other way round.
-        std::vector<std::vector<Contribution>> outgoing;
-        std::vector<MPI_Request> requests(partitioner->ghost_targets().size());
-        unsigned int first = n_owned();
-        for (const auto &[rank, n_entries] : partitioner->ghost_targets())
-          {
-            const Id lowest = id(first), highest = id(first + n_entries / 3 - 1);
-            first += n_entries / 3;
-            outgoing.emplace_back();
-            for (const auto &contribution : contributions)
-              if (contribution.node >= lowest && contribution.node <= highest)
-                outgoing.back().push_back(contribution);
-          }
-        for (unsigned int i = 0; i < outgoing.size(); ++i)
-          MPI_Isend(outgoing[i].data(),
-                    outgoing[i].size() * sizeof(Contribution),
-                    MPI_BYTE,
-                    partitioner->ghost_targets()[i].first,
-                    tag,
-                    communicator,
-                    &requests[i]);
-        contributions.erase(std::remove_if(contributions.begin(),
-                                           contributions.end(),
-                                           [&](const auto &c) {
-                                             return !owned_indices.is_element(3 * c.node);
-                                           }),
-                            contributions.end());
-        for (const auto &source : partitioner->import_targets())
-          {
-            MPI_Status status;
-            int n_bytes = 0;
-            MPI_Probe(source.first, tag, communicator, &status);
-            MPI_Get_count(&status, MPI_BYTE, &n_bytes);
-            const std::size_t n_before = contributions.size();
-            contributions.resize(n_before + n_bytes / sizeof(Contribution));
-            MPI_Recv(contributions.data() + n_before,
-                     n_bytes,
-                     MPI_BYTE,
-                     source.first,
-                     tag,
-                     communicator,
-                     MPI_STATUS_IGNORE);
-          }
-        MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
-      }
-    std::sort(contributions.begin(), contributions.end(), [](const auto &a, const auto &b) {
+    transfer_to_owners(contributions);
+    // Pairs of the same slave are of one rank and stay in their order.
+    std::stable_sort(contributions.begin(), contributions.end(), [](const auto &a, const auto &b) {
       return std::tie(a.node, a.interface, a.slave) < std::tie(b.node, b.interface, b.slave);
     });
   }

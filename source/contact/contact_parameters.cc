@@ -18,12 +18,8 @@ namespace akmon
     double
     strength(dealii::ParameterHandler &prm, const std::string &section, const std::string &key)
     {
-      const std::string text = prm.get(key);
-      if (text == "infinite")
-        return std::numeric_limits<double>::infinity();
-      if (!Double(0.).match(text) || !(dealii::Utilities::string_to_double(text) > 0.))
-        throw InputError(section, key, text, "allowed are positive numbers or 'infinite'");
-      return dealii::Utilities::string_to_double(text);
+      return get_number_or("infinite", prm, section, key, Double(1e-300), "positive numbers")
+        .value_or(std::numeric_limits<double>::infinity());
     }
   } // namespace
 
@@ -112,20 +108,16 @@ namespace akmon
   void
   ContactLaw::parse(dealii::ParameterHandler &prm, const std::string &section)
   {
-    friction.static_coefficient = friction.kinetic_coefficient = prm.get_double(
-      "Friction coefficient");
-    friction.decay            = prm.get_double("Friction decay");
-    stick                     = prm.get("Stick") == "central" ? Stick::central : Stick::forward;
-    const std::string kinetic = prm.get("Kinetic friction coefficient");
-    if (kinetic != "same")
-      {
-        if (!Double(0., friction.static_coefficient).match(kinetic))
-          throw InputError(section,
-                           "Kinetic friction coefficient",
-                           kinetic,
-                           "allowed are 'same' and numbers from 0 to the friction coefficient");
-        friction.kinetic_coefficient = dealii::Utilities::string_to_double(kinetic);
-      }
+    friction.static_coefficient  = prm.get_double("Friction coefficient");
+    friction.decay               = prm.get_double("Friction decay");
+    stick                        = prm.get("Stick") == "central" ? Stick::central : Stick::forward;
+    friction.kinetic_coefficient = get_number_or("same",
+                                                 prm,
+                                                 section,
+                                                 "Kinetic friction coefficient",
+                                                 Double(0., friction.static_coefficient),
+                                                 "numbers from 0 to the friction coefficient")
+                                     .value_or(friction.static_coefficient);
   }
 
 

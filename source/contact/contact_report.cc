@@ -13,8 +13,20 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    // Where the force acts: at the slave node, if it is a node's.
+    Tensor<1, 3>
+    place_of(const ContactPair &pair, const NodalState &state)
+    {
+      const bool of_node = pair.slave != numbers::invalid_unsigned_int && !pair.of_edges;
+      return of_node ? at_node(state.x, pair.slave) : pair.place;
+    }
+  } // namespace
+
+
   ContactReport
-  Contact::report() const
+  Contact::report(const NodalState &state) const
   {
     ContactReport report;
     report.iterations = coupled.iterations();
@@ -32,7 +44,7 @@ namespace akmon
         if (relative > report.max_penetration_relative)
           {
             report.max_penetration_relative = relative;
-            report.place                    = Point<3>(pair.place);
+            report.place                    = Point<3>(place_of(pair, state));
             report.deepest                  = pair.slave;
           }
         if (!(pair.normal_force > 0.))
@@ -46,7 +58,7 @@ namespace akmon
         const auto friction = sign * pair.tangential_force;
         interface.normal_force += normal;
         interface.friction_force += friction;
-        interface.moment += cross_product_3d(pair.place, normal + friction);
+        interface.moment += cross_product_3d(place_of(pair, state), normal + friction);
       }
     if (Utilities::MPI::this_mpi_process(discretization.communicator()) == 0) // all know the bonds
       for (unsigned int i = 0; i < contacts.size(); ++i)
@@ -112,7 +124,7 @@ namespace akmon
 
 
   void
-  Contact::refuse_initial_overlap() const
+  Contact::refuse_initial_overlap(const NodalState &state) const
   {
     // What rounding of coordinates in a mesh file may do is tolerated, and released slowly.
     constexpr double tolerated = 1e-6;
@@ -125,7 +137,7 @@ namespace akmon
     if (deepest)
       {
         const bool rigid = deepest->slave == numbers::invalid_unsigned_int;
-        const auto place = deepest->place;
+        const auto place = place_of(*deepest, state);
         message          = "[" +
                   std::string(deepest->interface < contacts.size() ? "Contact/" : "Obstacles/") +
                   law_of(*deepest).name + "] " +

@@ -1,5 +1,6 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/edge_search.h>
 #include <akmon/parameters.h>
 
 #include <algorithm>

@@ -53,16 +53,13 @@ namespace akmon
           steps[rigid_nodes.first[i]]     = step.centre;
           steps[rigid_nodes.first[i] + 1] = step.rotation;
         }
-    for (const auto &pair : pairs)
-      if (pair.normal_force > 0.)
-        for (unsigned int k = 0; k < pair.n_nodes; ++k)
-          if (pair.nodes[k] >= nodes.first_common())
-            {
-              const auto &step = steps[pair.nodes[k] - nodes.first_common()];
-              sums[pair.interface].normal += pair.at_node(k, pair.normal_force * pair.normal) *
-                                             step;
-              sums[pair.interface].tangential += pair.at_node(k, pair.tangential_force) * step;
-            }
+    visit_rigid_loads([&](const unsigned int interface,
+                          const unsigned int i,
+                          const Tensor<1, 3> &normal,
+                          const Tensor<1, 3> &tangential) {
+      sums[interface].normal += normal * steps[i];
+      sums[interface].tangential += tangential * steps[i];
+    });
     return sums;
   }
 } // namespace akmon

@@ -40,7 +40,7 @@ namespace akmon
     , nodes(nodes)
     , delassus_of_all(nodes, mobility, bonds)
     , delassus(nodes, mobility, bonds)
-    , preconditioner(mobility, compliance)
+    , preconditioner(nodes, mobility)
     , newton(delassus, preconditioner, nodes.get_communicator())
   {
   }
@@ -86,12 +86,12 @@ namespace akmon
     delassus_of_all.reinit(all, effective_mass_factor);
     isolated = delassus_of_all.isolated_pairs();
     coupled.clear();
-    friction.clear();
+    problem.friction.clear();
     for (std::size_t i = 0; i < all.size(); ++i)
       if (!isolated[i])
         {
           coupled.push_back(all[i]);
-          friction.push_back(friction_of_all[i]);
+          problem.friction.push_back(friction_of_all[i]);
         }
     const auto any = [&](const bool here) {
       return Utilities::MPI::max(int(here), nodes.get_communicator()) > 0;
@@ -156,12 +156,11 @@ namespace akmon
   void
   CoupledSolver::solve_together(const ContactNodes::Field &dx_free)
   {
-    constexpr unsigned int patience = 3; // iterations that old factors may cost more than new ones
+    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
 
     const auto &s       = delassus.scale();
     const std::size_t n = coupled.size();
     problem.b.resize(n);
-    problem.friction   = friction;
     problem.compliance = compliance;
     problem.limit      = parameters.limit;
     tau.resize(n);
@@ -193,7 +192,8 @@ namespace akmon
         pair.tangential_force = force[1] * delassus.frame(i)[1] + force[2] * delassus.frame(i)[2];
         // On the circle up to rounding is sliding.
         pair.sticks = pair.normal_force > 0. &&
-                      pair.tangential_force.norm() < (1. - 1e-12) * friction[i] * pair.normal_force;
+                      pair.tangential_force.norm() <
+                        (1. - 1e-12) * problem.friction[i] * pair.normal_force;
       }
   }
 

@@ -37,6 +37,7 @@ namespace akmon
     : nodes(nodes)
     , mobility(mobility)
     , bonds(bonds)
+    , sums(nodes)
   {
   }
 
@@ -62,6 +63,7 @@ namespace akmon
     std::sort(used.begin(), used.end());
     used.erase(std::unique(used.begin(), used.end()), used.end());
     nodes.make(field);
+    sums.forget();
   }
 
 
@@ -71,17 +73,15 @@ namespace akmon
   Delassus::norm_bound()
   {
     const auto coefficient = [&](const std::size_t i, const unsigned int k) {
-      const ContactPair &pair = *pairs[i];
-      if (k >= pair.n_points())
-        return std::abs(pair.weights[k]) * pair.radii[k - pair.n_points()].norm() * scales[i];
-      const double of_lever = pair.levered ? pair.lever.norm() * pair.arms[k].norm() : 0.;
-      return (std::abs(pair.weights[k]) + of_lever) * scales[i];
+      return pairs[i]->bound_at_node(k) * scales[i];
     };
     clear();
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
-        field.add(pairs[i]->nodes[k], Tensor<1, 3>({coefficient(i, k), 0., 0.}));
-    nodes.add_to_owners(field);
+    sums.add(
+      pairs,
+      [&](const std::size_t i, const unsigned int k) {
+        return Tensor<1, 3>({coefficient(i, k), 0., 0.});
+      },
+      field);
     nodes.update_ghosts(field);
     double largest = 0.;
     for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -165,7 +165,6 @@ namespace akmon
           bonds->project(field);
         return;
       }
-    nodes.add_to_owners(field);
     for (unsigned int number = 0; number < nodes.n_owned(); ++number)
       to_increment(number);
     for (unsigned int number = nodes.first_common(); number < nodes.size(); ++number)

@@ -11,9 +11,10 @@ namespace akmon
 
   namespace
   {
-    constexpr double rounding      = 1e-6; // of an edge: closest points on its ends
-    constexpr double least_sine    = 1e-3; // between edges: below, nodes and edges meet
-    constexpr double slack         = 0.1;  // sine: how far normals may be outside their range
+    constexpr double rounding     = 1e-6; // of an edge: closest points on its ends
+    constexpr double least_sine   = 0.07; // between edges, 4 degrees: below, nodes and edges meet
+    constexpr double first_sine   = 0.09; // the same of new pairs, 5 degrees
+    constexpr double first_inside = 0.02; // sine: how far new pairs' normals are off those of faces
     constexpr double barely_inside = 1e-6; // of the cell size: new pairs that overlap, for rounding
     constexpr double deepest_part  = 0.5;  // of the cell behind: old pairs that overlap
 
@@ -25,9 +26,14 @@ namespace akmon
     }
 
 
-    // Whether a normal of an edge is one that the surface takes as it turns about it.
+    // Whether a normal of an edge is one that the surface takes as it turns about it, and how far
+    // off those of the faces on its two sides: sine of the angle. The normal of a face belongs to
+    // the nodes on it.
     bool
-    in_range(const ContactNodes::Field &x, const FeatureEdge &edge, const Tensor<1, 3> &normal)
+    in_range(const ContactNodes::Field &x,
+             const FeatureEdge &edge,
+             const Tensor<1, 3> &normal,
+             const double inside = 0.)
     {
       const auto corner = [&](const unsigned int f, const unsigned int k) {
         return x[edge.corners[f][k % 4]];
@@ -50,8 +56,8 @@ namespace akmon
                             face_normal(1) :
                             std::cos(edge.angle) * first +
                               std::sin(edge.angle) * cross_product_3d(along, first);
-      return normal * (first + second) > 0. && cross_product_3d(first, normal) * along > -slack &&
-             cross_product_3d(normal, second) * along > -slack;
+      return normal * (first + second) > 0. && cross_product_3d(first, normal) * along >= inside &&
+             cross_product_3d(normal, second) * along >= inside;
     }
   } // namespace
 
@@ -127,7 +133,8 @@ namespace akmon
               before              = before &&
                        (edge->end[end] ? inside >= rounding : inside * length >= -further);
             }
-        if (before && are_opposed(x, slave, master, reach, crossing) && (on || crossing.gap >= 0.))
+        if (before && are_opposed(x, slave, master, reach, crossing) &&
+            (on || crossing.gap >= -barely_inside * std::min(slave.size, master.size)))
           return true;
       }
     if (!cross(next, slave, master, crossing) || crossing.s < 0. || crossing.s > 1. ||
@@ -209,8 +216,10 @@ namespace akmon
                                             });
         // Edges that are past each other and were not a pair before are none: a corner stands on a
         // face, beside an edge that another edge of the corner crosses.
-        if (pair.gap < -barely_inside * pair.size &&
-            (known == previous.end() || known->key() != pair.key()))
+        const bool is_new = known == previous.end() || known->key() != pair.key();
+        if (is_new && (pair.gap < -barely_inside * pair.size || crossing.sine < first_sine ||
+                       !in_range(x, masters[master], crossing.normal, first_inside) ||
+                       !in_range(x, slaves[slave], -crossing.normal, first_inside)))
           continue;
         pairs.push_back(pair);
       }

@@ -113,11 +113,7 @@ namespace akmon
       if (pair.gap + faster * std::min(0., pair.normal * pair.relative(dx)) <= near * pair.size)
         closed.push_back(&pair);
     const auto coefficient = [&](const ContactPair &pair, const unsigned int k) {
-      const double root = std::sqrt(spring(pair));
-      if (k >= pair.n_points())
-        return std::abs(pair.weights[k]) * pair.radii[k - pair.n_points()].norm() * root;
-      const double of_lever = pair.levered ? pair.lever.norm() * pair.arms[k].norm() : 0.;
-      return (std::abs(pair.weights[k]) + of_lever) * root;
+      return pair.bound_at_node(k) * std::sqrt(spring(pair));
     };
     ContactNodes::Field sums;
     nodes.make(sums);

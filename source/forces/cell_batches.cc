@@ -29,7 +29,7 @@ namespace akmon
     node_offsets.resize(std::size_t(n_batches) * 8 * n_lanes);
     owned.resize(std::size_t(n_batches) * n_lanes, 0.);
     state.resize(n_batches * batch_stride(), 0.);
-    hourglass.resize(one_point ? std::size_t(n_batches) * 12 * n_lanes : 0, 0.);
+    hourglass.resize(one_point ? n_batches * hourglass_stride : 0, 0.);
     eroded.resize(std::size_t(n_batches) * n_lanes, 0.);
     has_eroded.resize(n_batches, 0);
     frequencies.resize(std::size_t(n_batches) * 2 * n_lanes, 0.);
@@ -60,10 +60,9 @@ namespace akmon
     if (!hourglass.empty())
       for (unsigned int i = 0; i < 12; ++i)
         hourglass[(batch * 12 + i) * n_lanes + lane] = 0.;
-    frequencies[batch * 2 * n_lanes + lane]           = 0.;
-    frequencies[batch * 2 * n_lanes + n_lanes + lane] = 1.;
-    owned[cell]                                       = 0.;
-    eroded[cell]                                      = 1.;
+    set_frequency(cell, 0.);
+    owned[cell]  = 0.;
+    eroded[cell] = 1.;
     watched[batch] &= ~(1u << lane);
     has_eroded[batch] = 1;
   }

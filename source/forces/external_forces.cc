@@ -66,18 +66,14 @@ namespace akmon
   BodyForce::parse(ParameterHandler &prm)
   {
     acceleration.parse(prm, "Body force", "Acceleration", 3);
-    damping               = prm.get_double("Damping");
-    const std::string end = prm.get("Damping end");
-    damping_end           = std::numeric_limits<double>::infinity();
-    if (end != "never")
-      {
-        if (!Patterns::Double(0.).match(end))
-          throw InputError("Body force",
-                           "Damping end",
-                           end,
-                           "allowed are 'never' and numbers from 0 on");
-        damping_end = Utilities::string_to_double(end);
-      }
+    damping     = prm.get_double("Damping");
+    damping_end = get_number_or("never",
+                                prm,
+                                "Body force",
+                                "Damping end",
+                                Patterns::Double(0.),
+                                "numbers from 0 on")
+                    .value_or(std::numeric_limits<double>::infinity());
   }
 
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace akmon
 {
@@ -69,44 +70,57 @@ namespace akmon
   {
     frequency_squared = 0.;
     for (auto &batches : body_batches)
-      for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
-        {
-          calibrate(discretization.reference, batches, batch, Lanes(0.) < Lanes(1.));
-          const double *const omega_squared = &batches
-                                                 .frequencies[std::size_t(batch) * 2 * n_lanes];
-          for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
-            if (omega_squared[lane] > frequency_squared)
-              {
-                frequency_squared         = omega_squared[lane];
-                initial_frequency_squared = omega_squared[lane];
-                initially_limiting_cell   = batches.index_of(batch, lane);
-              }
-        }
+      {
+        to_calibrate.resize(batches.n_cells);
+        std::iota(to_calibrate.begin(), to_calibrate.end(), 0);
+        calibrate(discretization.reference, batches, to_calibrate);
+        for (std::size_t cell = 0; cell < batches.n_cells; ++cell)
+          if (batches.frequency_bound(cell) > frequency_squared)
+            {
+              frequency_squared         = batches.frequency_bound(cell);
+              initial_frequency_squared = frequency_squared;
+              initially_limiting_cell   = batches.first_cell + cell;
+            }
+      }
+    std::vector<std::size_t>().swap(to_calibrate); // never as many again
   }
 
 
-  void
+  // Compute omega^2 of cells (numbers in the body) anew, as many at a time as there are lanes; a
+  // cell's result does not depend on which others share them. Returns the largest.
+  double
   InternalForces::calibrate(const NodalVector &x,
                             CellBatches &batches,
-                            const unsigned int batch,
-                            const Lanes::batch_bool_type &wanted)
+                            const std::vector<std::size_t> &wanted)
   {
-    Lanes positions[8][3], mass[8];
-    gather(x.begin(), batches.nodes(batch), positions);
-    lump_batch_masses(discretization, batches, batch, mass);
-    const Lanes
-      omega_squared = largest_eigenvalue(positions,
-                                         mass,
-                                         discretization.material_of(batches.body).elasticity(),
-                                         discretization.get_bodies()[batches.body].integration);
-
-    // The other lanes keep what they have: a cell's step must not depend on which cells share its
-    // batch.
-    double *const frequency = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
-    double *const growth    = frequency + n_lanes;
-    select(wanted, omega_squared, Lanes::load_aligned(frequency)).store_aligned(frequency);
-    select(wanted, Lanes(1.), Lanes::load_aligned(growth)).store_aligned(growth);
-    batches.clear_unused_frequencies(batch);
+    double largest = 0.;
+    for (std::size_t first = 0; first < wanted.size(); first += n_lanes)
+      {
+        const unsigned int n_used = std::min<std::size_t>(n_lanes, wanted.size() - first);
+        CellBatches::NodeOffsets nodes;
+        std::size_t cells[n_lanes];
+        for (unsigned int lane = 0; lane < n_lanes; ++lane)
+          {
+            const std::size_t cell = wanted[first + (lane < n_used ? lane : 0)];
+            cells[lane]            = batches.first_cell + cell;
+            for (unsigned int v = 0; v < 8; ++v)
+              nodes[v][lane] = batches.nodes(cell / n_lanes)[v][cell % n_lanes];
+          }
+        Lanes positions[8][3], mass[8];
+        gather(x.begin(), nodes, positions);
+        lump_lane_masses(discretization, batches, nodes, cells, mass);
+        const Lanes
+          omega_squared = largest_eigenvalue(positions,
+                                             mass,
+                                             discretization.material_of(batches.body).elasticity(),
+                                             discretization.get_bodies()[batches.body].integration);
+        for (unsigned int lane = 0; lane < n_used; ++lane)
+          {
+            batches.set_frequency(wanted[first + lane], omega_squared.get(lane));
+            largest = std::max(largest, omega_squared.get(lane));
+          }
+      }
+    return largest;
   }
 
 
@@ -160,9 +174,6 @@ namespace akmon
     for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
       {
         const unsigned int next = std::min(batch + 1, batches.n_batches() - 1);
-        for (const NodalVector *const vector : {&x, &dx, static_cast<const NodalVector *>(&force)})
-          prefetch_nodes(vector->begin(), batches.nodes(next));
-
         Lanes positions[8][3], increments[8][3], forces[8][3];
         gather(x.begin(), batches.nodes(batch), positions);
         gather(dx.begin(), batches.nodes(batch), increments);
@@ -174,15 +185,19 @@ namespace akmon
         double *const state = batches.state_at(batch);
         CellStep<Lanes> cell;
         if constexpr (integration == CellIntegration::one_point)
-          cell = update_one_point_cell(law,
-                                       constants,
-                                       positions,
-                                       increments,
-                                       owned,
-                                       state,
-                                       &batches.hourglass[std::size_t(batch) * 12 * n_lanes],
-                                       sums,
-                                       forces);
+          {
+            prefetch(batches.state_at(next), batches.batch_stride());
+            prefetch(batches.hourglass_at(next), batches.hourglass_stride);
+            cell = update_one_point_cell(law,
+                                         constants,
+                                         positions,
+                                         increments,
+                                         owned,
+                                         state,
+                                         batches.hourglass_at(batch),
+                                         sums,
+                                         forces);
+          }
         else
           cell = update_stress_and_force<integration == CellIntegration::mean_dilatation>(
             law, positions, increments, owned, state, batches.state_at(next), sums, forces);
@@ -203,19 +218,15 @@ namespace akmon
                                                  growth_of_watched,
                                                  growth_elsewhere);
         if (xsimd::any(recalibrate))
-          to_calibrate.emplace_back(batch, recalibrate);
+          for (unsigned int lane = 0; lane < batches.n_used_lanes[batch]; ++lane)
+            if (recalibrate.get(lane))
+              to_calibrate.push_back(std::size_t(batch) * n_lanes + lane);
       }
     work += xsimd::hadd(sums.internal_work);
     dissipated += xsimd::hadd(sums.plastic_work);
     hourglass += xsimd::hadd(sums.hourglass_work);
     if (!cell_fault.occurred())
-      for (const auto &[batch, wanted] : to_calibrate)
-        {
-          calibrate(x, batches, batch, wanted);
-          const Lanes omega_squared = Lanes::load_aligned(
-            &batches.frequencies[std::size_t(batch) * 2 * n_lanes]);
-          largest = maximum(largest, select(wanted, omega_squared, Lanes(0.)));
-        }
+      frequency_squared = std::max(frequency_squared, calibrate(x, batches, to_calibrate));
     for (unsigned int lane = 0; lane < n_lanes; ++lane)
       {
         frequency_squared        = std::max(frequency_squared, largest.get(lane));
@@ -271,19 +282,16 @@ namespace akmon
   InternalForces::tighten_bounds(const NodalVector &x, const double limit, const double factor)
   {
     for (auto &batches : body_batches)
-      for (unsigned int batch = 0; batch < batches.n_batches(); ++batch)
-        {
-          const double *const frequency = &batches.frequencies[std::size_t(batch) * 2 * n_lanes];
-          const Lanes growth            = Lanes::load_aligned(frequency + n_lanes);
-          const auto loose              = growth > Lanes(factor) &&
-                             Lanes::load_aligned(frequency) * growth > Lanes(limit);
-          if (!xsimd::any(loose))
-            continue;
-          calibrate(x, batches, batch, loose);
-          for (unsigned int lane = 0; lane < n_lanes; ++lane)
-            if (loose.get(lane))
-              batches.changed[batch] |= 1u << lane;
-        }
+      {
+        to_calibrate.clear();
+        for (std::size_t cell = 0; cell < batches.n_cells; ++cell)
+          if (batches.frequency_growth(cell) > factor && batches.frequency_bound(cell) > limit)
+            {
+              to_calibrate.push_back(cell);
+              batches.changed[cell / n_lanes] |= 1u << cell % n_lanes;
+            }
+        calibrate(x, batches, to_calibrate);
+      }
   }
 
 

@@ -100,9 +100,10 @@ namespace akmon
           first.push_back(x);
         });
       for (std::size_t lane = batches.n_cells; lane < n; ++lane)
-        visit_cell(batches, lane, [&](const unsigned int i, double &x) { x = first[i]; });
-      if (n > 0)
-        batches.clear_unused_frequencies(batches.n_batches() - 1);
+        {
+          visit_cell(batches, lane, [&](const unsigned int i, double &x) { x = first[i]; });
+          batches.set_frequency(lane, 0.); // they govern nothing
+        }
     }
   } // namespace
 

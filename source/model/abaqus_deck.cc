@@ -4,8 +4,9 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <set>
+#include <cstdlib>
 #include <stdexcept>
 
 namespace akmon
@@ -42,13 +43,14 @@ namespace akmon
   } // namespace
 
 
-  AbaqusDeck::AbaqusDeck(std::istream &stream)
+  AbaqusDeck::AbaqusDeck(std::istream &stream, MeshTable &table)
+    : table(table)
   {
     std::string keyword;
     for (std::string line; std::getline(stream, line);)
       {
         line = upper_case(dealii::Utilities::trim(line));
-        if (line.empty() || line.compare(0, 2, "**") == 0)
+        if (split_list(line).empty() || line.compare(0, 2, "**") == 0)
           continue;
         if (line[0] != '*')
           {
@@ -69,30 +71,8 @@ namespace akmon
                                                                                          1));
           }
       }
-    if (positions.empty() && n_others == 0)
+    if (positions.empty() && table.n_others() == 0)
       throw std::runtime_error("there are no elements");
-  }
-
-
-  std::size_t
-  AbaqusDeck::n_other_elements() const
-  {
-    return n_others;
-  }
-
-
-  std::string
-  AbaqusDeck::other_elements() const
-  {
-    return other_type == "C3D4" || other_type == "C3D10" ? "tetrahedra" :
-                                                           "elements of type " + other_type;
-  }
-
-
-  std::string
-  AbaqusDeck::extract() const
-  {
-    return "*NODE\n" + nodes + "*ELEMENT, TYPE=C3D8\n" + elements + surfaces;
   }
 
 
@@ -100,7 +80,7 @@ namespace akmon
   AbaqusDeck::read_data(const std::string &keyword, const std::string &line)
   {
     if (keyword == "*NODE")
-      nodes += line + "\n";
+      read_node(line);
     else if (keyword == "*ELEMENT")
       read_element(line);
     else if (keyword == "*ELSET")
@@ -111,23 +91,45 @@ namespace akmon
 
 
   void
+  AbaqusDeck::read_node(const std::string &line)
+  {
+    const auto entries = split_list(line);
+    if (entries.size() < 4)
+      throw std::runtime_error("a node has no three coordinates on its line");
+    dealii::Point<3> place;
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const std::string &entry = entries[d + 1];
+        char *end                = nullptr;
+        place[d]                 = std::strtod(entry.c_str(), &end);
+        if (entry.empty() || *end != '\0')
+          throw std::runtime_error("'" + entry + "' stands where a coordinate is expected");
+      }
+    table.add_node(number(entries[0]), place);
+  }
+
+
+  void
   AbaqusDeck::read_element(const std::string &line)
   {
     static const std::set<std::string> hexahedra = {"C3D8", "C3D8R", "C3D8I", "C3D8H", "C3D8RH"};
     if (hexahedra.count(options["TYPE"]) == 0)
       {
-        ++n_others;
-        other_type = options["TYPE"];
+        const std::string &type = options["TYPE"];
+        table.add_other(type == "C3D4" || type == "C3D10" ? "tetrahedra" :
+                                                            "elements of type " + type);
         return;
       }
     const auto entries = split_list(line);
     const long element = number(entries[0]);
     if (entries.size() != 9)
       throw std::runtime_error("element " + entries[0] + " does not have eight nodes on its line");
-    if (!positions.emplace(element, positions.size() + 1).second)
+    if (!positions.emplace(element, table.n_hexahedra()).second)
       throw std::runtime_error("element " + entries[0] + " is there twice");
-    sets[options["ELSET"]].push_back(element);
-    elements += line + "\n";
+    sets[options["ELSET"]].insert(element);
+    std::array<long, 8> nodes;
+    std::transform(entries.begin() + 1, entries.end(), nodes.begin(), number);
+    table.add_hexahedron(nodes);
   }
 
 
@@ -138,16 +140,19 @@ namespace akmon
     auto &set          = sets[name];
     if (generate && entries.size() >= 2)
       {
-        const long step = entries.size() > 2 ? std::max(1l, number(entries[2])) : 1;
-        for (long i = number(entries[0]); i <= number(entries[1]); i += step)
-          set.push_back(i);
+        const long step  = entries.size() > 2 ? std::max(1l, number(entries[2])) : 1;
+        const long first = number(entries[0]), last = number(entries[1]);
+        if ((last - first) / step >= long(positions.size()))
+          throw std::runtime_error("set '" + name + "' has more elements than there are");
+        for (long i = first; i <= last; i += step)
+          set.insert(i);
         return;
       }
     for (const auto &entry : entries)
       if (const auto other = sets.find(entry); other != sets.end() && entry != name)
-        set.insert(set.end(), other->second.begin(), other->second.end());
+        set.insert(other->second.begin(), other->second.end());
       else
-        set.push_back(number(entry));
+        set.insert(number(entry));
   }
 
 
@@ -164,16 +169,19 @@ namespace akmon
       throw std::runtime_error("surface '" + name +
                                "' must list elements or their sets with a face from S1 to S6");
 
-    const auto set = sets.find(entries[0]);
-    surfaces += "*SURFACE, NAME=SS" + name.substr(digits) + "\n";
-    for (const long element :
-         set != sets.end() ? set->second : std::vector<long>(1, number(entries[0])))
+    std::set<long> elements;
+    if (const auto set = sets.find(entries[0]); set != sets.end())
+      elements = set->second;
+    else
+      elements.insert(number(entries[0]));
+    for (const long element : elements)
       {
         const auto position = positions.find(element);
         if (position == positions.end())
           throw std::runtime_error("surface '" + name + "' names the absent element " +
                                    std::to_string(element));
-        surfaces += std::to_string(position->second) + ", " + entries[1] + "\n";
+        table.add_quadrilateral(table.face(position->second, entries[1][1] - '0'),
+                                std::stol(name.substr(digits)));
       }
   }
 } // namespace akmon

@@ -10,7 +10,6 @@
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
-#include <functional>
 
 namespace akmon
 {
@@ -45,9 +44,9 @@ namespace akmon
 
 
     // Visit the active cells below (and at) a cell along the space-filling curve.
+    template <typename Iterator, typename Visitor>
     void
-    visit_along_curve(const DoFHandler<3>::cell_iterator &cell,
-                      const std::function<void(const DoFHandler<3>::cell_iterator &)> &visitor)
+    visit_along_curve(const Iterator &cell, const Visitor &visitor)
     {
       if (cell->has_children())
         for (unsigned int child = 0; child < cell->n_children(); ++child)
@@ -75,7 +74,8 @@ namespace akmon
 
   Discretization::Discretization(const std::vector<Body> &bodies,
                                  const std::vector<Material> &materials,
-                                 const MPI_Comm communicator)
+                                 const MPI_Comm communicator,
+                                 const ExtraWork &extra_work)
     : triangulation(communicator)
     , fe(FE_Q<3>(1), 3)
     , dof_handler(triangulation)
@@ -96,6 +96,7 @@ namespace akmon
       }
     refuse_too_large_meshes(bodies, communicator);
     build_triangulation();
+    share_out(extra_work);
     number_nodes();
     collect_cells();
     collect_faces();
@@ -166,6 +167,49 @@ namespace akmon
   }
 
 
+  // Ranks keep consecutive stretches of the space-filling curve, of equal work instead of equal
+  // numbers of cells.
+  void
+  Discretization::share_out(const ExtraWork &extra_work)
+  {
+    if (extra_work.empty())
+      return;
+    std::vector<unsigned int> extra(triangulation.n_active_cells(), 0);
+    types::global_cell_index next_id = first_owned_cell();
+    for (const auto tree : triangulation.get_p4est_tree_to_coarse_cell_permutation())
+      visit_along_curve(Triangulation<3>::cell_iterator(&triangulation, 0, tree),
+                        [&](const Triangulation<3>::cell_iterator &cell) {
+                          if (!cell->is_locally_owned())
+                            return;
+                          const auto found = extra_work.find(next_id++);
+                          if (found != extra_work.end())
+                            extra[cell->active_cell_index()] = found->second;
+                        });
+    constexpr unsigned int of_cell = 1000;
+    const auto connection          = triangulation.signals.weight.connect(
+      [&](const Triangulation<3>::cell_iterator &cell, const Triangulation<3>::CellStatus) {
+        return of_cell + extra[cell->active_cell_index()];
+      });
+    triangulation.repartition();
+    connection.disconnect();
+  }
+
+
+  // Number of cells that lower ranks own.
+  types::global_cell_index
+  Discretization::first_owned_cell() const
+  {
+    types::global_cell_index n = triangulation.n_locally_owned_active_cells(), first = 0;
+    MPI_Exscan(&n,
+               &first,
+               1,
+               Utilities::MPI::mpi_type_id_for_type<types::global_cell_index>,
+               MPI_SUM,
+               communicator());
+    return first;
+  }
+
+
   void
   Discretization::number_nodes()
   {
@@ -191,15 +235,8 @@ namespace akmon
     std::vector<DoFHandler<3>::cell_iterator> relevant;
     std::vector<types::global_cell_index> ids(triangulation.n_active_cells());
     std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), needed;
-    types::global_cell_index n_owned_cells = triangulation.n_locally_owned_active_cells(),
-                             next_id       = 0;
-    MPI_Exscan(&n_owned_cells,
-               &next_id,
-               1,
-               Utilities::MPI::mpi_type_id_for_type<types::global_cell_index>,
-               MPI_SUM,
-               communicator());
-    const auto visitor = [&](const DoFHandler<3>::cell_iterator &cell) {
+    types::global_cell_index next_id = first_owned_cell();
+    const auto visitor               = [&](const DoFHandler<3>::cell_iterator &cell) {
       const DoFHandler<3>::active_cell_iterator active(cell);
       if (cell->is_locally_owned())
         ids[active->active_cell_index()] = next_id++;

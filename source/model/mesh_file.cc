@@ -2,6 +2,7 @@
 #include <akmon/model/mesh_description.h>
 #include <akmon/model/mesh_file.h>
 #include <akmon/model/mesh_shapes.h>
+#include <akmon/model/mesh_table.h>
 #include <akmon/parameters.h>
 
 #include <deal.II/base/exceptions.h>
@@ -9,14 +10,12 @@
 #include <deal.II/base/patterns.h>
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/base/utilities.h>
-#include <deal.II/grid/grid_in.h>
 #include <deal.II/grid/grid_tools.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <sstream>
 
 namespace akmon
@@ -38,34 +37,6 @@ namespace akmon
       });
       return text;
     }
-
-
-    /// Keeps what is written to std::cerr while it lives.
-    class CapturedErrors
-    {
-    public:
-      CapturedErrors()
-        : previous(std::cerr.rdbuf(captured.rdbuf()))
-      {
-      }
-
-      CapturedErrors(const CapturedErrors &) = delete;
-
-      ~CapturedErrors()
-      {
-        std::cerr.rdbuf(previous);
-      }
-
-      std::string
-      text() const
-      {
-        return captured.str();
-      }
-
-    private:
-      std::ostringstream captured;
-      std::streambuf *previous;
-    };
 
 
     /// The first sentence of what deal.II says about an exception, on one line.
@@ -111,64 +82,32 @@ namespace akmon
     }
 
 
-    std::string
-    not_hexahedra(const std::size_t n, const std::string &what)
-    {
-      return "only hexahedra are supported, found " + std::to_string(n) + " " + what;
-    }
-
-
-    void
-    read_abaqus(const std::string &name, dealii::GridIn<3> &grid_in)
-    {
-      auto stream = open(name);
-      const AbaqusDeck deck(stream);
-      if (deck.n_other_elements() > 0)
-        throw Unusable{not_hexahedra(deck.n_other_elements(), deck.other_elements())};
-      std::istringstream extract(deck.extract());
-      grid_in.read_abaqus(extract);
-    }
-
-
     void
     read(const std::string &name, dealii::Triangulation<3> &triangulation)
     {
-      auto stream = open(name);
-      dealii::GridIn<3> grid_in(triangulation);
+      auto stream            = open(name);
       const std::string type = upper_case(std::filesystem::path(name).extension().string());
+      MeshTable table;
       if (type == ".MSH")
-        grid_in.read_msh(stream);
+        read_msh(stream, table);
       else if (type == ".VTK")
-        grid_in.read_vtk(stream);
+        read_vtk(stream, table);
       else if (type == ".INP" && is_abaqus(name))
-        read_abaqus(name, grid_in);
+        AbaqusDeck(stream, table);
       else if (type == ".INP" || type == ".UCD")
-        grid_in.read_ucd(stream);
+        read_ucd(stream, table);
       else
         throw Unusable{"allowed are files ending in .msh, .inp, .vtk or .ucd"};
-    }
-
-
-    void
-    check_cell_types(const dealii::Triangulation<3> &triangulation)
-    {
-      if (triangulation.n_active_cells() == 0)
+      if (table.n_others() > 0)
+        throw Unusable{"only hexahedra are supported, found " + std::to_string(table.n_others()) +
+                       " " + table.other_kind()};
+      if (table.n_hexahedra() == 0)
         throw Unusable{"the mesh has no cells"};
-      std::size_t n_tetrahedra = 0, n_others = 0;
-      for (const auto &cell : triangulation.active_cell_iterators())
-        {
-          n_tetrahedra += cell->reference_cell() == dealii::ReferenceCells::Tetrahedron;
-          n_others += cell->reference_cell() != dealii::ReferenceCells::Hexahedron;
-        }
-      if (n_tetrahedra > 0)
-        throw Unusable{not_hexahedra(n_tetrahedra, "tetrahedra")};
-      if (n_others > 0)
-        throw Unusable{not_hexahedra(n_others, "pyramids or wedges")};
+      table.make_triangulation(triangulation);
     }
 
 
-    /// GridIn has turned cells of negative volume already; what is still bad at a Gauss point is
-    /// folded.
+    /// Cells of negative volume have been turned; what is still bad at a Gauss point is folded.
     void
     check_jacobians(const dealii::Triangulation<3> &triangulation)
     {
@@ -226,12 +165,9 @@ namespace akmon
       return InputError(section + "/File", "Name", name, reason);
     };
     dealii::Triangulation<3> triangulation;
-    // GridIn::read_abaqus prints the exception that tells the cause and throws one that does not.
-    const CapturedErrors captured;
     try
       {
         read(name, triangulation);
-        check_cell_types(triangulation);
         check_jacobians(triangulation);
       }
     catch (const Unusable &unusable)
@@ -242,12 +178,11 @@ namespace akmon
       {
         std::ostringstream info;
         exception.print_info(info);
-        throw error("not a readable mesh: " +
-                    first_sentence(captured.text().empty() ? info.str() : captured.text()));
+        throw error("not a readable mesh: " + first_sentence(info.str()));
       }
     catch (const std::exception &exception)
       {
-        throw error("not a readable mesh: " + first_sentence(exception.what()));
+        throw error("not a readable mesh: " + std::string(exception.what()));
       }
 
     dealii::GridTools::scale(scale, triangulation);

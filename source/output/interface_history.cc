@@ -9,6 +9,20 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    template <typename Items, typename Value>
+    double
+    sum_over(const Items &items, const Value &value)
+    {
+      double sum = 0.;
+      for (const auto &item : items)
+        sum += value(item);
+      return sum;
+    }
+  } // namespace
+
+
   InterfaceHistory::InterfaceHistory(const std::string &directory,
                                      const Contact &contact,
                                      const NodalState &state)
@@ -75,40 +89,28 @@ namespace akmon
   double
   InterfaceHistory::friction_dissipation() const
   {
-    double sum = 0.;
-    for (const auto &interface : interfaces)
-      sum += interface.friction.value() - interface.stored_tangential;
-    return sum;
+    return sum_over(interfaces, [](const Interface &i) { return i.friction_dissipation(); });
   }
 
 
   double
   InterfaceHistory::impact_dissipation() const
   {
-    double sum = 0.;
-    for (const auto &interface : interfaces)
-      sum += interface.impact.value();
-    return sum;
+    return sum_over(interfaces, [](const Interface &i) { return i.impact.value(); });
   }
 
 
   double
   InterfaceHistory::contact_energy() const
   {
-    double sum = 0.;
-    for (const auto &interface : interfaces)
-      sum += interface.stored_normal + interface.stored_tangential;
-    return sum;
+    return sum_over(interfaces, [](const Interface &i) { return i.contact_energy(); });
   }
 
 
   double
   InterfaceHistory::bond_energy() const
   {
-    double sum = 0.;
-    for (const auto &interface : interfaces)
-      sum += interface.bond.value();
-    return sum;
+    return sum_over(interfaces, [](const Interface &i) { return i.bond.value(); });
   }
 
 
@@ -130,9 +132,9 @@ namespace akmon
         for (const double number : {patches[i].area,
                                     double(of_contact.sticking_pairs),
                                     double(of_contact.slipping_pairs),
-                                    interface.friction.value() - interface.stored_tangential,
+                                    interface.friction_dissipation(),
                                     interface.impact.value(),
-                                    interface.stored_normal + interface.stored_tangential,
+                                    interface.contact_energy(),
                                     interface.bond.value(),
                                     root ? contact.get_bonds().report(i).broken_area : 0.})
           sums.push_back(number);

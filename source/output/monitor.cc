@@ -74,7 +74,7 @@ namespace akmon
   {
     level_written = false;
     account_work();
-    report = watched.contact.report();
+    report = watched.contact.report(watched.state);
     solver_record.iterations += report.iterations;
     solver_record.steps += report.iterations > 0;
     solver_record.unconverged += !report.converged;

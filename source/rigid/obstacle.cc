@@ -25,16 +25,13 @@ namespace akmon
     double
     get_mass(ParameterHandler &prm, const std::string &section, const RigidShape &shape)
     {
-      const std::string text = prm.get("Mass");
-      if (text != "from density")
-        {
-          if (!Patterns::Double(1e-300).match(text))
-            throw InputError(section,
-                             "Mass",
-                             text,
-                             "allowed are 'from density' and positive numbers");
-          return Utilities::string_to_double(text);
-        }
+      if (const auto mass = get_number_or("from density",
+                                          prm,
+                                          section,
+                                          "Mass",
+                                          Patterns::Double(1e-300),
+                                          "positive numbers"))
+        return *mass;
       const double density = prm.get_double("Density");
       if (!(density > 0.))
         throw InputError(section, "Density", prm.get("Density"), "a free body needs a mass");
@@ -42,7 +39,7 @@ namespace akmon
       if (std::isinf(mass))
         throw InputError(section,
                          "Mass",
-                         text,
+                         prm.get("Mass"),
                          "the shape is infinite or hollow: give Mass and Inertia");
       return mass;
     }

@@ -54,18 +54,14 @@ namespace akmon
     std::shared_ptr<const RigidShape>
     make_cylinder(ParameterHandler &prm, const std::string &section)
     {
-      const double R         = prm.get_double("Radius");
-      const std::string text = prm.get("Length");
-      double length          = std::numeric_limits<double>::infinity();
-      if (text != "infinite")
-        {
-          if (!positive.match(text))
-            throw InputError(section,
-                             "Length",
-                             text,
-                             "allowed are 'infinite' and positive numbers");
-          length = Utilities::string_to_double(text);
-        }
+      const double R      = prm.get_double("Radius");
+      const double length = get_number_or("infinite",
+                                          prm,
+                                          section,
+                                          "Length",
+                                          positive,
+                                          "positive numbers")
+                              .value_or(std::numeric_limits<double>::infinity());
       return std::make_shared<RoundBarShape>(R,
                                              length,
                                              edge_radius(prm, section, std::min(R, 0.5 * length)));

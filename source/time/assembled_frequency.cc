@@ -305,11 +305,10 @@ namespace akmon
               Lanes positions[8][3], v[8][3], f[8][3];
               gather(x.begin(), batches.nodes(batch), positions);
               gather(work.v.begin(), batches.nodes(batch), v);
-              apply_elastic_stiffness(TrilinearGradients<Lanes>::evaluate(positions),
-                                      elasticity,
-                                      integration,
-                                      v,
-                                      f);
+              ElasticCell<Lanes>(TrilinearGradients<Lanes>::evaluate(positions),
+                                 elasticity,
+                                 integration)
+                .apply(v, f);
               const auto watched = batches.watched_lanes(batch);
               for (auto &of_node : f)
                 for (auto &component : of_node)

@@ -97,13 +97,16 @@ namespace akmon
           v_before[node][c] = N(0.);
         }
 
-    N b(0.);
+    const ElasticCell<N> cell(positions, elasticity, integration);
+    N b(0.), inverse_mass[8];
+    for (unsigned int node = 0; node < 8; ++node)
+      inverse_mass[node] = 1. / mass[node];
     for (unsigned int j = 0; j < n_steps; ++j)
       {
-        apply_elastic_stiffness(positions, elasticity, integration, v, w);
+        cell.apply(v, w);
         for (unsigned int node = 0; node < 8; ++node)
           for (unsigned int c = 0; c < 3; ++c)
-            w[node][c] = w[node][c] / mass[node] - b * v_before[node][c];
+            w[node][c] = w[node][c] * inverse_mass[node] - b * v_before[node][c];
         a[j] = mass_product(mass, v, w);
         for (unsigned int node = 0; node < 8; ++node)
           for (unsigned int c = 0; c < 3; ++c)

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <unistd.h>
@@ -15,7 +16,7 @@ namespace akmon::fuzz
   input_file(const std::string &name, const std::uint8_t *const data, const std::size_t size)
   {
     static const std::string directory = []() {
-      std::string pattern = "/tmp/akmon-fuzz-XXXXXX";
+      std::string pattern = (std::filesystem::temp_directory_path() / "akmon-fuzz-XXXXXX").string();
       return std::string(mkdtemp(pattern.data()));
     }();
     const std::string path = directory + "/" + name;

@@ -32,11 +32,10 @@ namespace akmon::test
                 positions[v][d]      = x.local_element(i);
                 u[v][d]              = q[i] / root_mass[i];
               }
-          apply_elastic_stiffness(TrilinearGradients<double>::evaluate(positions),
-                                  discretization.material_of(cell.body).elasticity(),
-                                  discretization.get_bodies()[cell.body].integration,
-                                  u,
-                                  f);
+          ElasticCell<double>(TrilinearGradients<double>::evaluate(positions),
+                              discretization.material_of(cell.body).elasticity(),
+                              discretization.get_bodies()[cell.body].integration)
+            .apply(u, f);
           for (unsigned int v = 0; v < 8; ++v)
             for (unsigned int d = 0; d < 3; ++d)
               {

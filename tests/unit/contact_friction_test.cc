@@ -154,7 +154,7 @@ namespace
         const Vector step = at_node(state.dx_next, pair.slave);
         EXPECT_LE((step - Vector({initial_gap, 0.04 - 0.25 * 0.06, 0.})).norm(), 1e-15);
       }
-    const auto report = contact.report();
+    const auto report = contact.report(state);
     EXPECT_LE((report.interfaces[0].force() - 4. * Vector({-t_n, -0.25 * t_n, 0.})).norm(), 1e-11);
   }
 

@@ -76,6 +76,14 @@ namespace
                             "9, 2,0,0\n10, 2,1,0\n11, 2,0,1\n12, 2,1,1\n";
 
 
+  void
+  expect_two_cubes(const BodyMesh &mesh)
+  {
+    EXPECT_GT(quality(mesh).jacobian_min, 0);
+    EXPECT_NEAR(quality(mesh).volume, 2, 1e-14);
+  }
+
+
   TEST_F(MeshFile, FormatsOfDealii)
   {
     Triangulation<3> box;
@@ -117,6 +125,21 @@ namespace
   }
 
 
+  // To the last digit, with nodes in between that no element has.
+  TEST_F(MeshFile, AbaqusCoordinatesAreThoseOfTheFile)
+  {
+    const auto mesh = make(
+      file(write("a.inp",
+                 "*Node\n1, 0,0,0.1234567890123456\n2, 1,0,0.1234567890123456\n3, 9,9,9\n"
+                 "4, 1,1,0.1234567890123456\n5, 0,1,0.1234567890123456\n6, 0,0,1\n7, 1,0,1\n"
+                 "8, 1,1,1\n9, 0,1,1\n*Element, type=C3D8\n1, 1,2,4,5,6,7,8,9\n")));
+    double least = 1.;
+    for (const auto &vertex : mesh.vertices)
+      least = std::min(least, vertex[2]);
+    EXPECT_EQ(least, 0.1234567890123456);
+  }
+
+
   TEST_F(MeshFile, AbaqusSurfacesBecomeParts)
   {
     const std::string deck = "*Part, name=P\r\n*Node\n" + nodes +
@@ -150,8 +173,7 @@ namespace
       file(write("a.inp",
                  "*NODE\n" + nodes +
                    "*ELEMENT, TYPE=C3D8\n1, 5,6,7,8,1,2,3,4\n2, 6,11,12,7,2,9,10,3\n")));
-    EXPECT_GT(quality(inverted).jacobian_min, 0);
-    EXPECT_NEAR(quality(inverted).volume, 2, 1e-14);
+    expect_two_cubes(inverted);
 
     std::string gmsh_nodes = nodes;
     std::replace(gmsh_nodes.begin(), gmsh_nodes.end(), ',', ' ');
@@ -160,17 +182,74 @@ namespace
                  "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n12\n" + gmsh_nodes +
                    "$EndNodes\n$Elements\n2\n1 5 2 0 1 1 2 3 4 5 6 7 8\n"
                    "2 5 2 0 1 6 11 12 7 2 9 10 3\n$EndElements\n")));
-    EXPECT_GT(quality(mixed).jacobian_min, 0);
-    EXPECT_NEAR(quality(mixed).volume, 2, 1e-14);
+    expect_two_cubes(mixed);
   }
 
 
-  TEST_F(MeshFile, AbaqusCellsOfMixedOrientationAreRefused)
+  TEST_F(MeshFile, AbaqusCellsOfMixedOrientationAreTurned)
   {
-    const auto name = write("a.inp",
-                            "*NODE\n" + nodes +
-                              "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n2, 6,11,12,7,2,9,10,3\n");
-    expect_contains(error_of(file(name)), "all cells have positive volume");
+    const auto mixed = make(
+      file(write("a.inp",
+                 "*NODE\n" + nodes +
+                   "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n2, 6,11,12,7,2,9,10,3\n")));
+    expect_two_cubes(mixed);
+  }
+
+
+  // The format that Gmsh writes by default: boundaries are physical tags of surfaces.
+  const std::string gmsh_4 =
+    "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 7 \"bottom\"\n$EndPhysicalNames\n"
+    "$Entities\n1 0 1 1\n1 0 0 0 0\n5 0 0 0 1 1 0 1 7 0\n1 0 0 0 1 1 1 0 1 5\n$EndEntities\n"
+    "$Nodes\n1 8 11 18\n3 1 0 8\n11\n12\n13\n14\n15\n16\n17\n18\n"
+    "0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n$EndNodes\n"
+    "$Elements\n2 2 1 2\n2 5 3 1\n1 11 12 13 14\n3 1 5 1\n2 11 12 13 14 15 16 17 18\n$EndElements\n";
+
+
+  TEST_F(MeshFile, GmshOfVersion4)
+  {
+    const auto mesh = make(file(write("a.msh", gmsh_4)));
+    expect_complete(mesh);
+    EXPECT_NEAR(quality(mesh).volume, 1, 1e-14);
+    EXPECT_NEAR(area(mesh, "7"), 1, 1e-14);
+    for (const auto *face : faces_of(mesh, "7"))
+      EXPECT_EQ(mesh.vertices[face->vertices[0]][2], 0);
+  }
+
+
+  // What is wrong in a file is told; deal.II's readers trusted counts and numbers of nodes.
+  TEST_F(MeshFile, DamagedFilesAreRefused)
+  {
+    const auto expect =
+      [&](const std::string &from, const std::string &to, const std::string &reason) {
+        std::string text = gmsh_4;
+        text.replace(text.find(from), from.size(), to);
+        expect_contains(error_of(file(write("a.msh", text))), "not a readable mesh: " + reason);
+      };
+    expect("13 14 15", "13 99 15", "there is no node 99");
+    expect("13 14 15", "13 13 15", "cell 1 has a node twice");
+    expect("13 14 15", "13 x 15", "'x' stands where a number is expected");
+    expect("3 1 0 8", "3 1 0 888888888", "the file cannot hold 888888888 entries");
+    expect("\n12\n", "\n11\n", "node 11 is there twice");
+    expect("1 1 1\n0 1 1", "1 1 1e200\n0 1 1", "node 17 has no place in space");
+    expect("3 1 5 1\n", "3 1 99 1\n", "cells of type '99' are not known");
+    expect("11 12 13 14\n3",
+           "11 12 13 15\n3",
+           "a quadrilateral of boundary 7 is not on the boundary");
+    expect("4.1 0 8", "4.1 1 8", "it is binary; save it as ASCII");
+    expect("4.1 0 8", "4.0 0 8", "its version is not 1, 2 or 4.1");
+    expect("2 11 12 13 14 15 16 17 18\n$EndElements\n",
+           "2 11 12",
+           "the end of the file stands where");
+
+    const std::string deck = "*NODE\n" + nodes + "*ELEMENT, TYPE=C3D8, ELSET=E\n";
+    const std::string cell = "1,2,3,4,5,6,7,8\n";
+    expect_contains(error_of(
+                      file(write("a.inp", deck + "1, " + cell + "2, " + cell + "3, " + cell))),
+                    "more than two cells share a face of cell 3");
+    expect_contains(error_of(file(
+                      write("a.inp",
+                            deck + "1, " + cell + "*ELSET, ELSET=F, GENERATE\n1, 999999999, 1\n"))),
+                    "set 'F' has more elements than there are");
   }
 
 

@@ -205,7 +205,7 @@ namespace
   struct Diagonal
   {
     void
-    reinit(const std::vector<CoulombFace> &new_faces)
+    reinit(const std::vector<CoulombFace> &new_faces, const double)
     {
       faces = new_faces;
     }

@@ -4,7 +4,6 @@
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/coupled_solver.h>
-#include <akmon/contact/edge_search.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/nodal_areas.h>
 #include <akmon/contact/obstacle_search.h>
@@ -21,6 +20,8 @@
 namespace akmon
 {
   class Bonds;
+  class EdgeSearch;
+
   /// What contact did at an interface, over this rank's pairs. Forces act on the surfaces named as
   /// slaves; those of an obstacle on what it touches.
   struct InterfaceReport
@@ -141,7 +142,14 @@ namespace akmon
     }
 
     ContactReport
-    report() const;
+    report(const NodalState &state) const;
+
+    /// Seconds that this rank has spent on looking for its pairs, without waiting for others.
+    double
+    search_seconds() const
+    {
+      return seconds_of_search;
+    }
 
     /// Extents of the contact of an interface.
     struct Patch
@@ -206,7 +214,7 @@ namespace akmon
 
     /// Throws InputError naming the place and depth if bodies overlap in the initial configuration.
     void
-    refuse_initial_overlap() const;
+    refuse_initial_overlap(const NodalState &state) const;
 
   private:
     double
@@ -236,6 +244,9 @@ namespace akmon
     reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const;
     void
     push_out(const NodalState &state, const double effective_mass_factor);
+    template <typename Visit>
+    void
+    visit_rigid_loads(const Visit &visit) const;
     void
     load_rigid_bodies();
     void
@@ -272,13 +283,31 @@ namespace akmon
     Mobility mobility;
     const std::unique_ptr<Bonds> bonds;
     CoupledSolver coupled;
-    double moved     = 0.; ///< bound of relative motion since candidates were built
-    double travelled = 0.; ///< the same since the beginning
-    bool prepared    = false;
+    double moved             = 0.; ///< bound of relative motion since candidates were built
+    double travelled         = 0.; ///< the same since the beginning
+    double seconds_of_search = 0.;
+    bool prepared            = false;
 
     ContactNodes::Field x, dx, dx_free, x_reached;
     std::vector<ContactPair> pairs;
     std::vector<ContactNodes::Contribution> contributions;
     std::vector<NodalForce> forces;
   };
+
+
+  // visit(interface, number of the rigid node, normal, tangential load) for what this rank's pairs
+  // do to rigid bodies.
+  template <typename Visit>
+  void
+  Contact::visit_rigid_loads(const Visit &visit) const
+  {
+    for (const auto &pair : pairs)
+      if (pair.normal_force > 0.)
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          if (pair.nodes[k] >= nodes.first_common())
+            visit(pair.interface,
+                  pair.nodes[k] - nodes.first_common(),
+                  pair.at_node(k, pair.normal_force * pair.normal),
+                  pair.at_node(k, pair.tangential_force));
+  }
 } // namespace akmon

@@ -2,7 +2,9 @@
 
 #include <akmon/model/discretization.h>
 
+#include <algorithm>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace akmon
@@ -147,6 +149,14 @@ namespace akmon
     void
     add_to_owners(Field &field) const;
 
+    /**
+     * Bring items to the owners of their nodes, where they come in the order of ranks (collective).
+     * @tparam Item  trivially copyable, with the id of a known node as member `node`
+     */
+    template <typename Item>
+    void
+    transfer_to_owners(std::vector<Item> &items) const;
+
     /// A force on a node that came out of a pair.
     struct Contribution
     {
@@ -175,4 +185,60 @@ namespace akmon
     dealii::IndexSet owned_indices;
     mutable std::vector<double> buffer;
   };
+
+
+  // The partners are those of the ghost exchange, the other way round.
+  template <typename Item>
+  void
+  ContactNodes::transfer_to_owners(std::vector<Item> &items) const
+  {
+    static_assert(std::is_trivially_copyable_v<Item>);
+    constexpr int tag = 4711;
+
+    if (!parallel)
+      return;
+    const auto &targets = partitioner->ghost_targets();
+    std::vector<std::vector<Item>> outgoing(targets.size());
+    std::vector<MPI_Request> requests(targets.size());
+    unsigned int first = n_owned();
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      {
+        const auto [rank, n_entries] = targets[i];
+        const Id lowest = id(first), highest = id(first + n_entries / 3 - 1);
+        first += n_entries / 3;
+        for (const auto &item : items)
+          if (item.node >= lowest && item.node <= highest)
+            outgoing[i].push_back(item);
+        MPI_Isend(outgoing[i].data(),
+                  outgoing[i].size() * sizeof(Item),
+                  MPI_BYTE,
+                  rank,
+                  tag,
+                  communicator,
+                  &requests[i]);
+      }
+    items.erase(std::remove_if(items.begin(),
+                               items.end(),
+                               [&](const auto &item) {
+                                 return !owned_indices.is_element(3 * item.node);
+                               }),
+                items.end());
+    for (const auto &source : partitioner->import_targets())
+      {
+        MPI_Status status;
+        int n_bytes = 0;
+        MPI_Probe(source.first, tag, communicator, &status);
+        MPI_Get_count(&status, MPI_BYTE, &n_bytes);
+        const std::size_t n_before = items.size();
+        items.resize(n_before + n_bytes / sizeof(Item));
+        MPI_Recv(items.data() + n_before,
+                 n_bytes,
+                 MPI_BYTE,
+                 source.first,
+                 tag,
+                 communicator,
+                 MPI_STATUS_IGNORE);
+      }
+    MPI_Waitall(requests.size(), requests.data(), MPI_STATUSES_IGNORE);
+  }
 } // namespace akmon

@@ -109,7 +109,7 @@ namespace akmon
     unsigned int iterations_when_new = 0; ///< that fresh factors took
 
     std::vector<ContactPair *> all, coupled; ///< pairs that may close, those that share nodes
-    std::vector<double> friction_of_all, friction;
+    std::vector<double> friction_of_all;
     std::vector<bool> isolated;                                      ///< by number in `all`
     SemismoothNewton<Delassus, PairPreconditioner>::Problem problem; ///< in tau_i = t_i/s_i
     Delassus::Vector tau;

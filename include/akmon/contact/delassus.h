@@ -2,6 +2,7 @@
 
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/mobility.h>
+#include <akmon/contact/nodal_sums.h>
 #include <akmon/contact/pair.h>
 
 #include <vector>
@@ -81,6 +82,7 @@ namespace akmon
     std::vector<dealii::Tensor<2, 3>> frames;
     std::vector<unsigned int> used; ///< contact numbers the pairs touch, sorted
     ContactNodes::Field field;
+    NodalSums sums;
   };
 
 
@@ -89,8 +91,12 @@ namespace akmon
   Delassus::increments(const Force &force_of_pair)
   {
     clear();
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      pairs[i]->distribute(force_of_pair(i), field);
+    sums.add(
+      pairs,
+      [&](const std::size_t i, const unsigned int k) {
+        return pairs[i]->at_node(k, force_of_pair(i));
+      },
+      field);
     forces_to_increments();
     return field;
   }

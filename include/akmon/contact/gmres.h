@@ -1,8 +1,11 @@
 #pragma once
 
+#include <akmon/contact/reproducible_sums.h>
+
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -78,17 +81,19 @@ namespace akmon
     }
 
   private:
-    // Of a vector with n others, over all ranks.
+    // Of a vector with n others, over all ranks, whose number they do not depend on.
     template <typename Others>
     std::vector<double>
-    products(const Vector &v, const unsigned int n, const Others &other) const
+    products(const Vector &v, const unsigned int n, const Others &other)
     {
-      std::vector<double> sums(n);
+      addends.resize(n);
       for (unsigned int k = 0; k < n; ++k)
-        for (std::size_t i = 0; i < v.size(); ++i)
-          sums[k] += v[i] * other(k)[i];
-      dealii::Utilities::MPI::sum(sums, communicator, sums);
-      return sums;
+        {
+          addends[k].resize(v.size());
+          for (std::size_t i = 0; i < v.size(); ++i)
+            addends[k][i] = v[i] * other(k)[i];
+        }
+      return reproducible_sums(addends, communicator);
     }
 
     static void
@@ -163,6 +168,7 @@ namespace akmon
 
     const MPI_Comm communicator;
     std::vector<Vector> basis, directions, images;
+    std::vector<std::vector<double>> addends; ///< of products
     std::vector<std::vector<double>> columns; ///< of the triangular matrix
     std::vector<Rotation> rotations;
     std::vector<double> rest; ///< rotated right-hand side; its last entry is the residual

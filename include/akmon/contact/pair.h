@@ -5,6 +5,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <array>
+#include <cmath>
 #include <tuple>
 
 namespace akmon
@@ -118,6 +119,15 @@ namespace akmon
       if (levered)
         return weights[k] * t + cross_product_3d(t * lever, arms[k]);
       return weights[k] * t;
+    }
+
+    /// A bound of the norm of the part of G^T t at the pair's node number k for unit forces t.
+    double
+    bound_at_node(const unsigned int k) const
+    {
+      if (k >= n_points())
+        return std::abs(weights[k]) * radii[k - n_points()].norm();
+      return std::abs(weights[k]) + (levered ? lever.norm() * arms[k].norm() : 0.);
     }
 
     /// f += G^T t

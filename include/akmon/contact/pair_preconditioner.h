@@ -1,36 +1,46 @@
 #pragma once
 
+#include <akmon/contact/cholesky_factor.h>
 #include <akmon/contact/coulomb_faces.h>
 #include <akmon/contact/delassus.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/pair.h>
 
-#include <Eigen/SparseCholesky>
+#include <array>
+#include <memory>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 namespace akmon
 {
   /**
-   * Inverse of the scaled Delassus operator in the free directions of its pairs, as far as this
-   * rank knows it: sparse Cholesky factors of the rank's own block, of A_nn on the pairs whose
-   * normal force is free and of the scalar sum_k w_ik w_jk / m*_k, which acts on each component of
-   * tangential forces, on those that stick. The latter leaves out that contact planes are turned
-   * against each other, and levers. Pairs that slip count with their diagonal. A is singular where
-   * constraints repeat each other; a small shift makes the factors regular. A rigid body couples
-   * all its pairs by six unknowns, which cost conjugate gradients as many iterations at most: it
-   * counts on the diagonal only.
+   * Inverse of the scaled Delassus operator in the free directions of its pairs: Cholesky factors
+   * of
    *
-   * Factors are kept as long as they belong to the same pairs and free directions, from step to
-   * step too: weights and normals that have changed a little make them no worse.
+   *     S = E^T (A + shift) E + curvatures
+   *
+   * where E are the free directions: the normal of a closed pair, both tangents where it sticks,
+   * the tangent of the circle where it slips. The Jacobian of the contact problem is
+   * S + E^T A (L - E): forces of slip follow normal forces. On a flat interface that rest acts on
+   * normal forces only and makes tangential motion only, its square is nothing, and GMRES needs two
+   * iterations.
+   *
+   * A is singular where constraints repeat each other; the shift makes factors regular. A rigid
+   * body couples all its pairs by six unknowns, which cost as many iterations at most: it counts on
+   * the diagonal only. Pairs that share nodes, directly or through others, are a group with a
+   * factor of its own, which is kept, from step to step too, while its free directions are about
+   * the same: weights and normals that have changed a little make it no worse.
+   *
+   * Every rank has the factors of all groups and computes the same with them, so that iterations,
+   * and with them solutions, are those of one rank.
    */
   class PairPreconditioner
   {
   public:
     using Vector = std::vector<dealii::Tensor<1, 3>>;
 
-    /// @param shift  added to the unit diagonal: above what rounding makes of repeated constraints
-    PairPreconditioner(const Mobility &mobility, const double shift);
+    PairPreconditioner(const ContactNodes &nodes, const Mobility &mobility);
 
     /**
      * The pairs of the coming solutions.
@@ -45,57 +55,118 @@ namespace akmon
     void
     forget();
 
-    /// Whether factors of an earlier step are in use.
+    /// Whether factors of an earlier step are in use; the same on all ranks.
     bool
-    is_old() const
-    {
-      return (normal.old && !normal.members.empty()) ||
-             (tangential.old && !tangential.members.empty());
-    }
+    is_old() const;
 
-    /// The faces whose free directions the coming applications are for.
+    /**
+     * What the coming applications are for (collective).
+     * @param faces  with the free directions
+     * @param shift  added to the unit diagonal
+     */
     void
-    reinit(const std::vector<CoulombFace> &faces);
+    reinit(const std::vector<CoulombFace> &faces, const double shift);
 
-    /// z close to A^{-1} r in the free directions.
+    /// z close to S^{-1} r in the free directions (collective).
     void
     apply(const Vector &r, Vector &z);
 
   private:
-    using Key = decltype(std::declval<const ContactPair &>().key());
+    // Which pair it is, beyond the step.
+    using Key = std::tuple<ContactNodes::Id,
+                           unsigned int,
+                           unsigned int,
+                           bool,
+                           bool,
+                           std::array<ContactNodes::Id, 3>>;
 
-    struct Factor
+    // A closed pair of any rank, with the nodes that couple it.
+    struct ClosedPair
     {
-      std::vector<unsigned int> members; ///< numbers of the pairs, in order
-      std::vector<Key> keys;
-      Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> cholesky;
-      bool valid = false, old = false;
+      ContactNodes::Id slave;
+      unsigned int interface, slot;
+      bool reversed, of_edges;
+      std::array<ContactNodes::Id, 3> others;
+      CoulombFace face;
+      unsigned int n_nodes;
+      std::array<ContactNodes::Id, 7> nodes;
+
+      Key
+      key() const
+      {
+        return {slave, interface, slot, reversed, of_edges, others};
+      }
     };
 
-    void
-    update(Factor &factor, const bool along_normals);
-    void
-    factorize(Factor &factor, const bool along_normals);
+    // The free directions of a pair, in its frame.
+    struct Directions
+    {
+      unsigned int n = 0;
+      std::array<dealii::Tensor<1, 3>, 3> e;
 
+      Directions() = default;
+      explicit Directions(const CoulombFace &face);
+    };
+
+    // Pairs that share nodes, and their factor.
+    struct Group
+    {
+      std::vector<Key> keys; ///< of its pairs, sorted
+      std::vector<CoulombFace> faces;
+      std::vector<unsigned int> members; ///< numbers of its pairs among the closed ones
+      unsigned int n_rows = 0;
+      CholeskyFactor cholesky;
+      bool valid = false; ///< whether S was positive definite
+      bool old   = false; ///< whether it was made in an earlier step
+    };
+
+    // What a unit force along a direction e of a pair does to a node: s_i N_ik e, and its motion.
+    struct Entry
+    {
+      ContactNodes::Id node; ///< invalid: of a rigid body
+      unsigned int pair;     ///< its number among the closed ones
+      unsigned int row;      ///< of the pair, then of its group
+      dealii::Tensor<1, 3> force, increment;
+    };
+
+    bool
+    is_closed(const unsigned int pair, const std::vector<CoulombFace> &faces) const;
+    bool
+    still_serve(const std::vector<CoulombFace> &faces);
+    void
+    gather_closed_pairs(const std::vector<CoulombFace> &faces);
+    std::vector<std::vector<unsigned int>>
+    divide() const;
+    void
+    make_groups(const std::vector<std::vector<unsigned int>> &lists);
+    bool
+    serves(const Group &group, const std::vector<unsigned int> &list) const;
+    void
+    number_rows();
+    void
+    gather_entries(const std::vector<bool> &is_new);
+    void
+    factorize(Group &group,
+              const std::vector<Entry>::const_iterator begin,
+              const std::vector<Entry>::const_iterator end);
+
+    const ContactNodes &nodes;
     const Mobility &mobility;
-    const double shift;
+    double shift = 0.;
     std::vector<ContactPair *> pairs;
     const Delassus *delassus = nullptr;
     double mass_factor       = 1.;
 
-    // Coefficients s_i w_ik m*_k^{-1/2} of the pairs, sorted by node.
-    struct Entry
-    {
-      unsigned int node, pair;
-      double coefficient;
-    };
-    std::vector<Entry> entries;
-    std::vector<double> rigid_share; ///< by pair: what rigid bodies add to the unit diagonal
-    std::vector<CoulombFace> faces;
-    std::vector<unsigned int> row_of_pair; ///< in the factor in work
-    std::vector<Eigen::Triplet<double>> triplets;
-    Factor normal, tangential;
+    std::vector<unsigned int> own;  ///< closed pairs of this rank
+    std::vector<ClosedPair> closed; ///< of all ranks, one after another; faces as in the factors
+    std::vector<int> n_closed;      ///< of the ranks
+    unsigned int first_own = 0;     ///< number of this rank's first pair among the closed ones
+    std::vector<std::unique_ptr<Group>> groups;
+    std::vector<unsigned int> group_of, first_row; ///< of the closed pairs
+    std::vector<Directions> directions;            ///< of the closed pairs
+    std::vector<Entry> entries;                    ///< of new groups, by group, node and row
+    CholeskyFactor::Entries triplets;              ///< of the group in work
+    Vector own_values, all_values;
     Eigen::VectorXd values;
-    Eigen::MatrixX3d vectors;
   };
 } // namespace akmon

@@ -2,6 +2,7 @@
 
 #include <akmon/contact/coulomb_faces.h>
 #include <akmon/contact/gmres.h>
+#include <akmon/contact/reproducible_sums.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -28,9 +29,10 @@ namespace akmon
    *
    * A may be singular where constraints repeat each other: a compliance c makes forces unique, w =
    * A t + c (t - t_0) + b, first with t_0 = 0, then with the first solution (Tikhonov's method,
-   * iterated once), which leaves an error of c^2.
+   * iterated once), which leaves an error of c^2. Where it is so small that the faces never settle,
+   * a larger one is taken with more iterations (the proximal point method).
    *
-   * Operator has apply(t, y): y = A t (collective). Preconditioner has reinit(faces) and then
+   * Operator has apply(t, y): y = A t (collective). Preconditioner has reinit(faces, c) and then
    * apply(r, z): z close to (A + curvatures + c)^{-1} r in the free directions.
    */
   template <typename Operator, typename Preconditioner>
@@ -45,7 +47,7 @@ namespace akmon
       std::vector<double> friction; ///< mu of the pairs
       std::vector<double> weights;  ///< what a component of w counts in the residual
       double norm;                  ///< an upper bound of the norm of A
-      double compliance;            ///< c, relative to the diagonal of A: one
+      double compliance;            ///< c to begin with, relative to the diagonal of A: one
       double tolerance;             ///< of the residual
       unsigned int limit;           ///< of applications of A
     };
@@ -74,22 +76,18 @@ namespace akmon
       n_relaxations  = 25;
       if (!(problem->norm > 0.)) // nothing can move
         return {0, 0., true};
-      constexpr unsigned int most_references = 4;
+      constexpr double stiffer = 1e3; // where faces do not settle
 
       const std::size_t n = t.size();
-      step                = 1.9 / (problem->norm + problem->compliance);
       faces.resize(n);
       for (Vector *const v : {&g, &r, &direction, &image})
         v->resize(n);
       reference.assign(n, CoulombFace::Force());
-      compute_gradient(t);
-      double residual = solve_for_reference(t);
-      for (unsigned int k = 0;
-           k < most_references && (k == 0 || error_of_compliance(t) > problem->tolerance);
-           ++k)
+      double residual = solve_with(problem->compliance, 4, false, t);
+      if (residual > problem->tolerance && n_applications < problem->limit)
         {
-          refer_to(t);
-          residual = solve_for_reference(t);
+          reference = t;
+          residual  = solve_with(stiffer * problem->compliance, 20, true, t);
         }
       for (std::size_t i = 0; i < n; ++i) // what the tolerance left
         t[i] = CoulombFace::project(t[i], limit_of(i, t[i]));
@@ -97,6 +95,31 @@ namespace akmon
     }
 
   private:
+    // Solve with a compliance and as many references as it takes; returns the residual. While the
+    // reference is still to change, a part of the error it makes is good enough.
+    double
+    solve_with(const double new_compliance,
+               const unsigned int most_references,
+               const bool thoroughly,
+               Vector &t)
+    {
+      constexpr double part = 0.1;
+
+      compliance = new_compliance;
+      step       = 1.9 / (problem->norm + compliance);
+      compute_gradient(t);
+      double residual = 0.;
+      for (unsigned int k = 0; k <= most_references; ++k)
+        {
+          const double enough = std::max(0.5 * problem->tolerance, part * error_of_compliance(t));
+          residual            = solve_for_reference(enough, thoroughly, t);
+          if (residual > enough || error_of_compliance(t) <= problem->tolerance)
+            break;
+          refer_to(t);
+        }
+      return residual;
+    }
+
     double
     limit_of(const std::size_t i, const CoulombFace::Force &t) const
     {
@@ -110,7 +133,7 @@ namespace akmon
       ++n_applications;
       drift = 0.;
       for (std::size_t i = 0; i < t.size(); ++i)
-        g[i] += problem->b[i] + problem->compliance * (t[i] - reference[i]);
+        g[i] += problem->b[i] + compliance * (t[i] - reference[i]);
     }
 
     // Largest weighted component of (t - P(t - a g))/a over all ranks.
@@ -132,8 +155,7 @@ namespace akmon
     {
       double error = 0.;
       for (std::size_t i = 0; i < t.size(); ++i)
-        error = std::max(error,
-                         problem->compliance * problem->weights[i] * (t[i] - reference[i]).norm());
+        error = std::max(error, compliance * problem->weights[i] * (t[i] - reference[i]).norm());
       return dealii::Utilities::MPI::max(error, communicator);
     }
 
@@ -142,7 +164,7 @@ namespace akmon
     {
       for (std::size_t i = 0; i < t.size(); ++i)
         {
-          g[i] -= problem->compliance * (t[i] - reference[i]);
+          g[i] -= compliance * (t[i] - reference[i]);
           reference[i] = t[i];
         }
     }
@@ -151,15 +173,15 @@ namespace akmon
     // it is convex and always solved: where the faces of the true problem do not settle, limits
     // follow normal forces in a loop around it.
     double
-    solve_for_reference(Vector &t)
+    solve_for_reference(const double enough, const bool thoroughly, Vector &t)
     {
       constexpr unsigned int most_limits = 50;
       constexpr double part              = 0.05; // of the residual, while limits still change
 
       limits_are_given = false;
-      double residual  = find_faces(t, 0.5 * problem->tolerance);
+      double residual  = find_faces(t, enough, thoroughly);
       for (unsigned int k = 0;
-           k < most_limits && residual > problem->tolerance && n_applications < problem->limit;
+           thoroughly && k < most_limits && residual > enough && n_applications < problem->limit;
            ++k)
         {
           limits_are_given = false;
@@ -168,8 +190,8 @@ namespace akmon
             limits[i] = limit_of(i, t[i]);
           limits_are_given = true;
           residual         = measure(t);
-          if (residual > problem->tolerance)
-            find_faces(t, std::max(0.5 * problem->tolerance, part * residual));
+          if (residual > enough)
+            find_faces(t, std::max(enough, part * residual), true);
         }
       limits_are_given = false;
       return residual;
@@ -177,7 +199,7 @@ namespace akmon
 
     // Newton steps until the residual is small enough; returns it.
     double
-    find_faces(Vector &t, const double enough)
+    find_faces(Vector &t, const double enough, const bool thoroughly)
     {
       struct Attempt
       {
@@ -210,7 +232,7 @@ namespace akmon
             }
           t = t_best;
           compute_gradient(t);
-          if (n_applications >= problem->limit)
+          if (!thoroughly || n_applications >= problem->limit)
             break;
           if (&attempt != attempts.data()) // exact systems may be all that was missing
             relax(t);
@@ -263,17 +285,19 @@ namespace akmon
     {
       constexpr unsigned int dimension = 80;
 
-      double square = 0., weighted = 0.;
+      double weighted = 0.;
+      squares.resize(1);
+      squares[0].resize(t.size());
       for (std::size_t i = 0; i < t.size(); ++i)
         {
-          r[i] = -faces[i].restrict_to(g[i]);
-          square += r[i].norm_square();
-          weighted = std::max(weighted, problem->weights[i] * r[i].norm());
+          r[i]          = -faces[i].restrict_to(g[i]);
+          squares[0][i] = r[i].norm_square();
+          weighted      = std::max(weighted, problem->weights[i] * r[i].norm());
         }
-      const double norm = std::sqrt(dealii::Utilities::MPI::sum(square, communicator));
+      const double norm = std::sqrt(reproducible_sums(squares, communicator)[0]);
       weighted          = dealii::Utilities::MPI::max(weighted, communicator);
       const double goal = weighted > 0. ? 0.15 * problem->tolerance / weighted : 1.;
-      precondition.reinit(faces);
+      precondition.reinit(faces, compliance);
       gmres.solve([&](Vector &p, Vector &of_p, Vector &y) { apply_on_faces(p, of_p, y); },
                   [&](const Vector &v, Vector &z) {
                     precondition.apply(v, z);
@@ -307,7 +331,7 @@ namespace akmon
       ++n_applications;
       for (std::size_t i = 0; i < p.size(); ++i)
         {
-          of_p[i] += problem->compliance * p[i];
+          of_p[i] += compliance * p[i];
           y[i] += faces[i].restrict_to(of_p[i]);
         }
     }
@@ -318,7 +342,8 @@ namespace akmon
     Gmres gmres;
     const Problem *problem      = nullptr;
     unsigned int n_applications = 0;
-    unsigned int n_relaxations  = 0; ///< in the next relaxation
+    unsigned int n_relaxations  = 0;  ///< in the next relaxation
+    double compliance           = 0.; ///< c
     double step                 = 0.;
     double drift                = 0.; ///< rounding of g since it was computed
     bool limits_are_given       = false;
@@ -326,5 +351,6 @@ namespace akmon
     std::vector<CoulombFace> faces;
     Vector g; ///< A t + b + c (t - t_0)
     Vector reference, t_best, r, direction, image;
+    std::vector<std::vector<double>> squares; ///< of r, in a list of their own
   };
 } // namespace akmon

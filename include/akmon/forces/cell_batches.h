@@ -62,12 +62,34 @@ namespace akmon
       return &state[batch * batch_stride()];
     }
 
+    static constexpr std::size_t hourglass_stride = 12 * n_lanes; ///< of a batch
+
+    double *
+    hourglass_at(const unsigned int batch)
+    {
+      return &hourglass[batch * hourglass_stride];
+    }
+
     /// Bound of a cell's omega^2; 1/time^2.
     double
     frequency_bound(const std::size_t cell) const
     {
-      const std::size_t first = cell / n_lanes * 2 * n_lanes + cell % n_lanes;
-      return frequencies[first] * frequencies[first + n_lanes];
+      return frequencies[frequency_index(cell)] * frequency_growth(cell);
+    }
+
+    /// What the bound has grown by since omega^2 was computed last.
+    double
+    frequency_growth(const std::size_t cell) const
+    {
+      return frequencies[frequency_index(cell) + n_lanes];
+    }
+
+    /// Set a cell's omega^2 as just computed; 1/time^2.
+    void
+    set_frequency(const std::size_t cell, const double omega_squared)
+    {
+      frequencies[frequency_index(cell)]           = omega_squared;
+      frequencies[frequency_index(cell) + n_lanes] = 1.;
     }
 
     /// Whether a cell of the body was taken out.
@@ -83,14 +105,6 @@ namespace akmon
     {
       if (!is_eroded(cell))
         watched[cell / n_lanes] |= 1u << cell % n_lanes;
-    }
-
-    /// Lanes that fill up a batch govern nothing.
-    void
-    clear_unused_frequencies(const unsigned int batch)
-    {
-      for (unsigned int lane = n_used_lanes[batch]; lane < n_lanes; ++lane)
-        frequencies[std::size_t(batch) * 2 * n_lanes + lane] = 0.;
     }
 
     /// Which lanes of a batch are watched.
@@ -111,6 +125,12 @@ namespace akmon
     batch_stride() const
     {
       return std::size_t(n_points) * n_components * n_lanes;
+    }
+
+    static std::size_t
+    frequency_index(const std::size_t cell)
+    {
+      return cell / n_lanes * 2 * n_lanes + cell % n_lanes;
     }
 
     unsigned int body;

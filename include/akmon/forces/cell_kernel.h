@@ -5,6 +5,9 @@
 #include <akmon/material/arc_end.h>
 #include <akmon/simd.h>
 
+#include <cstdint>
+#include <utility>
+
 namespace akmon
 {
   /// Sums over the cells of a rank of what one pass did, one entry per SIMD lane.
@@ -17,33 +20,35 @@ namespace akmon
   };
 
 
-  /// Nodal values of a batch, gathered lane by lane from an interleaved nodal vector.
-  inline void
-  gather(const double *vector, const CellBatches::NodeOffsets &nodes, Lanes (&values)[8][3])
+  /// One entry of a nodal vector per lane. From memory right into the lanes: a detour by a buffer
+  /// would wait, as vectors cannot be loaded from scalars just stored.
+  template <std::size_t... lanes>
+  [[gnu::always_inline]] inline Lanes
+  gather(const double *vector,
+         const std::uint32_t (&offsets)[n_lanes],
+         const std::index_sequence<lanes...> &)
   {
-    alignas(lane_alignment) double buffer[8][3][n_lanes];
-    for (unsigned int v = 0; v < 8; ++v)
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
-        {
-          const double *const node = vector + nodes[v][lane];
-          buffer[v][0][lane]       = node[0];
-          buffer[v][1][lane]       = node[1];
-          buffer[v][2][lane]       = node[2];
-        }
-    for (unsigned int v = 0; v < 8; ++v)
-      for (unsigned int c = 0; c < 3; ++c)
-        values[v][c] = Lanes::load_aligned(buffer[v][c]);
+    return Lanes{vector[offsets[lanes]]...};
   }
 
 
-  /// Ask for what the next batch needs of a nodal vector: its nodes lie all over the memory, and
-  /// the processor's own prefetching does not know of them.
-  inline void
-  prefetch_nodes(const double *vector, const CellBatches::NodeOffsets &nodes)
+  /// Nodal values of a batch, gathered lane by lane from an interleaved nodal vector. Nothing is
+  /// fetched ahead: cells follow a space-filling curve, so most nodes were used just before.
+  [[gnu::always_inline]] inline void
+  gather(const double *vector, const CellBatches::NodeOffsets &nodes, Lanes (&values)[8][3])
   {
     for (unsigned int v = 0; v < 8; ++v)
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
-        __builtin_prefetch(vector + nodes[v][lane]);
+      for (unsigned int c = 0; c < 3; ++c)
+        values[v][c] = gather(vector + c, nodes[v], std::make_index_sequence<n_lanes>());
+  }
+
+
+  /// Ask for what the next batch reads and writes, so many doubles.
+  inline void
+  prefetch(const double *from, const std::size_t n)
+  {
+    for (std::size_t i = 0; i < n; i += n_lanes)
+      __builtin_prefetch(from + i, 1);
   }
 
 

@@ -177,11 +177,8 @@ namespace akmon
     restore(const CheckpointReader &checkpoint);
 
   private:
-    void
-    calibrate(const NodalVector &x,
-              CellBatches &batches,
-              const unsigned int batch,
-              const Lanes::batch_bool_type &wanted);
+    double
+    calibrate(const NodalVector &x, CellBatches &batches, const std::vector<std::size_t> &wanted);
     Lanes::batch_bool_type
     bound_frequency(const Lanes &strain_squared,
                     CellBatches &batches,
@@ -214,8 +211,7 @@ namespace akmon
 
     const Discretization &discretization;
     std::vector<CellBatches> body_batches;
-    std::vector<std::pair<unsigned int, Lanes::batch_bool_type>>
-      to_calibrate; ///< batches and their cells whose bound is too loose, of the body in work
+    std::vector<std::size_t> to_calibrate; ///< cells of the body in work with too loose bounds
     double frequency_squared           = 0.;
     double initial_frequency_squared   = 0.;
     double governing_frequency_squared = 0.;

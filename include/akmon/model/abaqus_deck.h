@@ -1,41 +1,30 @@
 #pragma once
 
+#include <akmon/model/mesh_table.h>
+
 #include <cstddef>
 #include <istream>
 #include <map>
+#include <set>
 #include <string>
-#include <vector>
 
 namespace akmon
 {
   /**
-   * What of an Abaqus input file makes a mesh: nodes, elements and surfaces made of element faces.
-   * dealii::GridIn::read_abaqus takes any element for a hexahedron, finds elements by position
-   * instead of number and runs out of bounds for surfaces it does not expect, so it is given this
-   * extract.
+   * What of an Abaqus input file makes a mesh: nodes, elements and surfaces made of element faces,
+   * whose boundary ids are the numbers that their names end in.
    */
   class AbaqusDeck
   {
   public:
-    /// Throws std::runtime_error with one line if the elements or surfaces are of no use.
-    explicit AbaqusDeck(std::istream &stream);
-
-    /// How many elements are not hexahedra with eight nodes.
-    std::size_t
-    n_other_elements() const;
-
-    /// What these are: "tetrahedra" or "elements of type ...".
-    std::string
-    other_elements() const;
-
-    /// The extract in the form GridIn::read_abaqus expects; a surface's boundary id is the number
-    /// its name ends in.
-    std::string
-    extract() const;
+    /// Throws std::runtime_error with one line for what is of no use.
+    AbaqusDeck(std::istream &stream, MeshTable &table);
 
   private:
     void
     read_data(const std::string &keyword, const std::string &line);
+    void
+    read_node(const std::string &line);
     void
     read_element(const std::string &line);
     void
@@ -43,13 +32,9 @@ namespace akmon
     void
     read_surface(const std::string &name, const std::string &line);
 
+    MeshTable &table;
     std::map<std::string, std::string> options; ///< of the keyword line that holds; upper case
-
-    std::string nodes, elements, surfaces;
-    std::map<long, std::size_t>
-      positions; ///< element number -> 1, 2, 3, ... in the order of the file
-    std::map<std::string, std::vector<long>> sets; ///< element numbers
-    std::size_t n_others = 0;
-    std::string other_type;
+    std::map<long, std::size_t> positions;      ///< element number -> place in the table
+    std::map<std::string, std::set<long>> sets; ///< element numbers
   };
 } // namespace akmon

@@ -2,6 +2,7 @@
 
 #include <akmon/material/material.h>
 #include <akmon/model/body.h>
+#include <akmon/model/partition.h>
 
 #include <deal.II/base/partitioner.h>
 #include <deal.II/distributed/tria.h>
@@ -68,9 +69,11 @@ namespace akmon
   {
   public:
     /// Throws InputError for unknown materials and meshes that cannot be used.
+    /// @param extra_work  that ranks share besides their cells' own
     Discretization(const std::vector<Body> &bodies,
                    const std::vector<Material> &materials,
-                   MPI_Comm);
+                   MPI_Comm,
+                   const ExtraWork &extra_work = {});
 
     MPI_Comm
     communicator() const
@@ -153,6 +156,10 @@ namespace akmon
   private:
     void
     build_triangulation();
+    void
+    share_out(const ExtraWork &extra_work);
+    dealii::types::global_cell_index
+    first_owned_cell() const;
     void
     number_nodes();
     void

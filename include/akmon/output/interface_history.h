@@ -57,6 +57,19 @@ namespace akmon
       WorkLine friction, impact, bond;
       double stored_normal = 0., stored_tangential = 0.;  ///< in penalty springs; energy
       double penetration = 0., penetration_relative = 0.; ///< since the last row
+
+      double
+      friction_dissipation() const
+      {
+        return friction.value() - stored_tangential;
+      }
+
+      /// Elastic energy of penalty springs.
+      double
+      contact_energy() const
+      {
+        return stored_normal + stored_tangential;
+      }
     };
 
     const Contact &contact;

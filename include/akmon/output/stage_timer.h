@@ -66,6 +66,13 @@ namespace akmon
     Stage
     add(const std::string &name);
 
+    /// Seconds of a stage on this rank so far.
+    double
+    seconds(const Stage stage) const
+    {
+      return std::chrono::duration<double>(records[stage.index].duration).count();
+    }
+
     /// Totals of this rank for the stages used so far, in the order of their first use.
     std::vector<Total>
     totals() const;

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "support/run_directory.h"
+#include "support/rank_case.h"
 
 // The state on 1, 2, 3 and 4 ranks has the same hash with the decoupled solver.
 
@@ -8,20 +8,6 @@ using namespace akmon::test;
 
 namespace
 {
-  struct RankCase
-  {
-    std::string name;
-    std::vector<std::string> overrides;
-  };
-
-
-  void
-  PrintTo(const RankCase &rank_case, std::ostream *out)
-  {
-    *out << rank_case.name;
-  }
-
-
   class DecoupledState : public testing::TestWithParam<RankCase>
   {
   };
@@ -29,24 +15,12 @@ namespace
 
   TEST_P(DecoupledState, has_one_hash_on_any_number_of_ranks)
   {
-    std::string hash;
-    for (const unsigned int n_ranks : {1u, 2u, 3u, 4u})
-      {
-        const ScratchDirectory scratch;
-        auto overrides = GetParam().overrides;
-        overrides.insert(overrides.end(),
-                         {"Contact solver/Type=decoupled",
-                          "Output/Fields interval=0",
-                          "Output/History steps=0"});
-        const auto result = run_program(arguments_for(shipped(GetParam().name),
-                                                      scratch.path,
-                                                      overrides),
-                                        n_ranks);
-        ASSERT_EQ(result.status, 0) << result.output;
-        if (n_ranks == 1)
-          hash = summary_value(scratch.path, "state_hash");
-        EXPECT_EQ(summary_value(scratch.path, "state_hash"), hash) << n_ranks << " ranks";
-      }
+    expect_one_hash(GetParam(),
+                    4,
+                    {"Contact solver/Type=decoupled",
+                     "Output/Fields interval=0",
+                     "Output/History steps=0"},
+                    [](const std::string &) {});
   }
 
 

@@ -1,31 +1,22 @@
 #include <akmon/contact/bonds.h>
+#include <akmon/output/history.h>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
 #include "support/kept_run.h"
 #include "support/report.h"
 
 // Tied contact on meshes that do not match.
 
+using akmon::shortest_text;
 using namespace akmon::test;
 
 namespace
 {
   constexpr double E = 3.0e7, rho = 7.337e-4, h = 0.5, length = 20., area = 64.;
   const double c = std::sqrt(E / rho), dt = h / c;
-
-
-  std::string
-  text(const double value)
-  {
-    std::ostringstream out;
-    out.precision(17);
-    out << value;
-    return out.str();
-  }
 
 
   // Two bars of length 10 that lie against each other, 3 x 3 and 4 x 4 cells across.
@@ -42,9 +33,9 @@ namespace
             "Bodies/right/Box/Cells=20, 4, 4",
             "Contact/interface/Type=tied",
             "Contact solver/Type=" + solver,
-            "Time/Step=" + text(dt),
+            "Time/Step=" + shortest_text(dt),
             "Time/Allow unstable step=true",
-            "Time/End=" + text(n_steps * dt)};
+            "Time/End=" + shortest_text(n_steps * dt)};
   }
 
 
@@ -174,7 +165,7 @@ namespace
     auto overrides = tied_bars(70);
     overrides.push_back("Bodies/left/Velocity=-10, 0, 0");
     overrides.push_back("Bodies/right/Velocity=10, 0, 0");
-    overrides.push_back("Contact/interface/Normal strength=" + text(0.5 * rho * c * 10.));
+    overrides.push_back("Contact/interface/Normal strength=" + shortest_text(0.5 * rho * c * 10.));
     const Table history = run_case(shipped("two_bars"), overrides);
     EXPECT_EQ(history["bond_energy"].back(), 0.);
     EXPECT_EQ(history["interface.force_x"].back(), 0.);

@@ -29,6 +29,7 @@ namespace
     report("penetration over h", penetration);
     report("energy error", energy_error);
     report("iterations, mean", mean_iterations(history));
+    EXPECT_LE(mean_iterations(history), 30.);
     EXPECT_LE(energy_error, 0.01);
     EXPECT_LE(penetration, 1e-6);
 

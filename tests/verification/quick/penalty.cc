@@ -6,6 +6,7 @@
 
 #include "support/kept_run.h"
 #include "support/report.h"
+#include "support/run_directory.h"
 
 // Penalty contact: the stiffness is the one documented, the time step follows it, and what it costs
 // is reported.
@@ -120,15 +121,8 @@ namespace
     auto overrides = bars("20, 1, 1", "20, 1, 1", "single");
     overrides.push_back("Contact solver/Penalty scale=0.005");
     const ScratchDirectory scratch;
-    std::vector<std::string> arguments = {shipped("two_bars")};
-    overrides.push_back("Output directory=" + scratch.path);
     overrides.push_back("Output/Penetration bound=0.02");
-    for (const auto &entry : overrides)
-      {
-        arguments.emplace_back("--set");
-        arguments.push_back(entry);
-      }
-    const auto result = run_program(arguments);
+    const auto result = run_program(arguments_for(shipped("two_bars"), scratch.path, overrides));
     EXPECT_EQ(result.status, 0) << result.output;
     EXPECT_NE(result.output.find("penalty contact lets surfaces penetrate"), std::string::npos)
       << result.output;

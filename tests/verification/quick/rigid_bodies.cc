@@ -82,4 +82,37 @@ namespace
     EXPECT_LT(history["sphere.velocity_z"].back(), 0.01);
     EXPECT_EQ(force.back(), 0.);
   }
+
+  // A rigid mass M strikes a bar that is under pressure: both exact solutions add up until the wave
+  // comes back from the base, 2 L/c after the impact (de Saint-Venant).
+  TEST(PreloadImpact, StressesOfPreloadAndImpactAddUp)
+  {
+    constexpr double p = 0.01, v = 0.02, M = 4.;
+    const Table history = run_case(shipped("preload_impact"));
+    const auto &time    = history["time"];
+    const auto settled  = history.rows_between(140., 165.); // damped until 150
+    ASSERT_GT(settled.size(), 10u);
+    for (const std::size_t i : settled)
+      {
+        EXPECT_NEAR(history["top.stress_zz"][i], -p, 1e-7 * p) << time[i];
+        EXPECT_NEAR(history["middle.stress_zz"][i], -p, 1e-5 * p) << time[i];
+      }
+    const auto &force = history["hammer.force_z"];
+    const auto first  = std::find_if(force.begin(), force.end(), [](double f) { return f != 0.; });
+    ASSERT_NE(first, force.end());
+    const double impact = time[first - force.begin()];
+    EXPECT_NEAR(history["hammer.velocity_z"][first - force.begin() - 2], -v, 1e-5 * v);
+    // The front is spread over some cells of 0.1: after it, and before it is back.
+    for (const std::size_t i : history.rows_between(impact + 1.5, impact + 19.))
+      {
+        const double speed = v * std::exp(-(time[i] - impact) / M);
+        EXPECT_NEAR(history["hammer.velocity_z"][i], -speed, 0.01 * v) << time[i];
+        EXPECT_NEAR(history["top.stress_zz"][i], -p - speed, 0.03 * v) << time[i];
+      }
+    for (std::size_t i = 0; i < history.n_rows(); ++i)
+      {
+        EXPECT_LT(history["max_penetration_rel"][i], 1e-12);
+        EXPECT_LT(std::abs(history["energy_error"][i]), 1e-3);
+      }
+  }
 } // namespace

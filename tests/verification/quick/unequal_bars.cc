@@ -1,3 +1,5 @@
+#include <akmon/output/history.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -146,11 +148,11 @@ namespace
     const double dt      = courant == Courant::one ? h / c : 4.45e-7;
     const double end     = courant == Courant::one ? impact.after : impact.after + 0.42e-4;
     const double n_steps = std::floor(end / dt);
-    std::ostringstream step, stop;
-    step << std::setprecision(17) << "Time/Step=" << dt;
-    stop << std::setprecision(17) << "Time/End=" << n_steps * dt;
     // A Courant number of one is exact in one dimension, and just above the bound for cells.
-    return run(impact, {step.str(), stop.str(), "Time/Allow unstable step=true"});
+    return run(impact,
+               {"Time/Step=" + akmon::shortest_text(dt),
+                "Time/End=" + akmon::shortest_text(n_steps * dt),
+                "Time/Allow unstable step=true"});
   }
 
 

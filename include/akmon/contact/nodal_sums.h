@@ -1,0 +1,97 @@
+#pragma once
+
+#include <akmon/contact/contact_nodes.h>
+#include <akmon/contact/pair.h>
+
+#include <array>
+#include <vector>
+
+namespace akmon
+{
+  /**
+   * Sums over contact pairs at their nodes, in an order that does not depend on the number of
+   * ranks: that of their keys, which every rank's own pairs are in.
+   */
+  class NodalSums
+  {
+  public:
+    explicit NodalSums(const ContactNodes &nodes)
+      : nodes(nodes)
+    {
+    }
+
+    /// Other pairs from now on.
+    void
+    forget()
+    {
+      order.clear();
+    }
+
+    /**
+     * Add to a field of zeros at owned and common nodes (collective).
+     * @param value  value(i, k) of pair i at its node number k
+     */
+    template <typename Value>
+    void
+    add(const std::vector<ContactPair *> &pairs, const Value &value, ContactNodes::Field &field);
+
+  private:
+    struct Share
+    {
+      ContactNodes::Id node;
+      ContactNodes::Id slave;
+      unsigned int interface, slot;
+      bool of_edges, reversed;
+      std::array<ContactNodes::Id, 3> others;
+      dealii::Tensor<1, 3> value;
+    };
+
+    void
+    add_shares(ContactNodes::Field &field);
+    void
+    add_to_common_nodes(ContactNodes::Field &field);
+
+    const ContactNodes &nodes;
+    std::vector<Share> shares;
+    std::vector<unsigned int> order; ///< that shares are added in, as long as pairs are the same
+    std::vector<std::vector<double>> of_common; ///< by component of the common nodes
+  };
+
+
+  template <typename Value>
+  void
+  NodalSums::add(const std::vector<ContactPair *> &pairs,
+                 const Value &value,
+                 ContactNodes::Field &field)
+  {
+    const unsigned int first_common = nodes.first_common();
+    of_common.resize(3 * (nodes.size() - first_common));
+    for (auto &addends : of_common)
+      addends.clear();
+    shares.clear();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
+        {
+          const ContactPair &pair   = *pairs[i];
+          const unsigned int number = pair.nodes[k];
+          if (number >= first_common)
+            for (unsigned int d = 0; d < 3; ++d)
+              of_common[3 * (number - first_common) + d].push_back(value(i, k)[d]);
+          else if (!nodes.is_parallel())
+            field.add(number, value(i, k));
+          else
+            shares.push_back({nodes.id(number),
+                              pair.slave_id,
+                              pair.interface,
+                              pair.slot,
+                              pair.of_edges,
+                              pair.reversed,
+                              pair.others,
+                              value(i, k)});
+        }
+    if (nodes.is_parallel())
+      add_shares(field);
+    if (!of_common.empty())
+      add_to_common_nodes(field);
+  }
+} // namespace akmon

@@ -1,0 +1,50 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/kept_run.h"
+#include "support/report.h"
+#include "support/run_case.h"
+
+// All surfaces in one contact, no pairs listed: a tower that settles under gravity, a ring that
+// is crushed until it touches itself. Run to the end on the default parameters.
+
+using namespace akmon::test;
+
+namespace
+{
+  // At every step.
+  Table
+  run_and_check(const std::string &name)
+  {
+    const Table history = run_case(shipped(name), {"Output/History steps=1"});
+    report("penetration over h", largest_of(history["max_penetration_rel"]));
+    report("energy error", largest_of(history["energy_error"]));
+    report("iterations, mean", mean_iterations(history));
+    EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-6);
+    EXPECT_LE(largest_of(history["energy_error"]), 1e-3);
+    EXPECT_LE(mean_iterations(history), 30.);
+    const auto &friction = history["friction_dissipation"];
+    double least         = 0.;
+    for (std::size_t i = 1; i < friction.size(); ++i)
+      least = std::min(least, friction[i] - friction[i - 1]);
+    EXPECT_GE(least, -1e-9 * std::abs(history["external_work"].back()));
+    return history;
+  }
+
+
+  TEST(BlockTower, stands_on_the_ground_with_its_weight)
+  {
+    const Table history    = run_and_check("block_tower");
+    constexpr double force = 98100.; // ten blocks of 1000, g = 9.81
+    EXPECT_NEAR(history["ground.force_z"].back(), force, 1e-6 * force);
+    EXPECT_LE(history["kinetic_energy"].back(), 1e-12 * history["strain_energy"].back());
+  }
+
+
+  TEST(CrushedRing, yields_and_keeps_its_surfaces_apart)
+  {
+    const Table history = run_and_check("crushed_ring");
+    EXPECT_GE(history["plastic_dissipation"].back(), 0.5 * history["external_work"].back());
+  }
+} // namespace
