@@ -11,12 +11,21 @@ namespace akmon
 
   namespace
   {
-    constexpr double rounding     = 1e-6; // of an edge: closest points on its ends
+    constexpr double corner       = 0.1;  // of an edge: so close to a corner nodes meet faces
     constexpr double least_sine   = 0.07; // between edges, 4 degrees: below, nodes and edges meet
     constexpr double first_sine   = 0.09; // the same of new pairs, 5 degrees
     constexpr double first_inside = 0.02; // sine: how far new pairs' normals are off those of faces
     constexpr double barely_inside = 1e-6; // of the cell size: new pairs that overlap, for rounding
     constexpr double deepest_part  = 0.5;  // of the cell behind: old pairs that overlap
+
+
+    // Whether a part of an edge is on it. A corner that stands on an edge, or slides over it, is a
+    // node's pair.
+    bool
+    is_on(const FeatureEdge &edge, const double part)
+    {
+      return part >= (edge.end[0] ? corner : 0.) && 1. - part >= (edge.end[1] ? corner : 0.);
+    }
 
 
     Tensor<1, 3>
@@ -121,24 +130,22 @@ namespace akmon
     if (cross(x, slave, master, crossing))
       {
         const double further = reach / crossing.sine;
-        bool on = true, before = true;
+        const bool on        = is_on(slave, crossing.s) && is_on(master, crossing.t);
+        bool before          = true;
         for (const auto &[edge, part] :
              {std::make_pair(&slave, crossing.s), std::make_pair(&master, crossing.t)})
-          for (unsigned int end = 0; end < 2; ++end)
-            {
-              // A corner that stands on an edge is a node's pair.
-              const double inside = end == 0 ? part : 1. - part;
-              on                  = on && inside >= (edge->end[end] ? rounding : 0.);
-              const double length = (x[edge->nodes[1]] - x[edge->nodes[0]]).norm();
-              before              = before &&
-                       (edge->end[end] ? inside >= rounding : inside * length >= -further);
-            }
+          {
+            const double length = (x[edge->nodes[1]] - x[edge->nodes[0]]).norm();
+            for (unsigned int end = 0; end < 2; ++end)
+              before = before && (end == 0 ? part : 1. - part) * length >=
+                                   (edge->end[end] ? corner * length : -further);
+          }
         if (before && are_opposed(x, slave, master, reach, crossing) &&
             (on || crossing.gap >= -barely_inside * std::min(slave.size, master.size)))
           return true;
       }
-    if (!cross(next, slave, master, crossing) || crossing.s < 0. || crossing.s > 1. ||
-        crossing.t < 0. || crossing.t > 1. || !are_opposed(next, slave, master, reach, crossing) ||
+    if (!cross(next, slave, master, crossing) || !is_on(slave, crossing.s) ||
+        !is_on(master, crossing.t) || !are_opposed(next, slave, master, reach, crossing) ||
         crossing.gap > 0.)
       return false;
     const auto offset = point_on(x, slave, crossing.s) - point_on(x, master, crossing.t);

@@ -61,7 +61,7 @@ namespace akmon
     BoundingBox<3>
     box_of(const Point<3> &a, const Point<3> &b, const double margin)
     {
-      BoundingBox<3> box({a, b});
+      BoundingBox<3> box(std::vector<Point<3>>{a, b}); // of a pair of points they would be corners
       box.extend(margin);
       return box;
     }
