@@ -1,5 +1,6 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/edge_search.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -7,7 +8,6 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace akmon
 {
@@ -64,9 +64,18 @@ namespace akmon
     nodes.gather(state.x, x);
     nodes.gather(state.dx, dx);
     add_rigid_motions(dx, &RigidBody::increment_before);
+    x_reached = x; // as far as is known
+    for (unsigned int i = 0; i < nodes.first_common(); ++i)
+      x_reached.add(i, dx[i]);
     const auto begin = std::chrono::steady_clock::now();
-    for (auto &search : searches)
-      search.find_pairs(state.x, x, reach, travelled, pairs);
+    for (unsigned int i = 0; i < searches.size(); ++i)
+      {
+        searches[i].find_pairs(state.x, x, reach, travelled, pairs);
+        const unsigned int interface = searches[i].get_interface();
+        const bool last = i + 1 == searches.size() || searches[i + 1].get_interface() != interface;
+        if (last && !edge_searches.empty())
+          edge_searches[interface].find_pairs(x, x_reached, reach, previous, pairs);
+      }
     for (unsigned int i = 0; i < bodies.size(); ++i)
       {
         const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
@@ -129,14 +138,32 @@ namespace akmon
         const auto of_search = search.fetch_master_faces(nodes, state.x);
         needed.insert(needed.end(), of_search.begin(), of_search.end());
       }
+    for (unsigned int i = 0; i < edge_searches.size(); ++i)
+      {
+        const auto of_edges = edge_searches[i].fetch_edges(nodes, state.x, radius_of_edges(i));
+        needed.insert(needed.end(), of_edges.begin(), of_edges.end());
+      }
     nodes.reinit(needed);
     mobility.reinit(nodes);
     bonds->update_mobilities();
     nodes.gather(state.x, x);
     for (auto &search : searches)
       search.build_candidates(nodes, state.x, x);
+    for (unsigned int i = 0; i < edge_searches.size(); ++i)
+      edge_searches[i].build_candidates(nodes, x, radius_of_edges(i));
     moved    = 0.;
     prepared = true;
+  }
+
+
+  // Edges are looked for as far as the nodes of the same contact.
+  double
+  Contact::radius_of_edges(const unsigned int interface) const
+  {
+    for (const auto &search : searches)
+      if (search.get_interface() == interface)
+        return search.radius();
+    return 0.;
   }
 
 
@@ -144,15 +171,12 @@ namespace akmon
   void
   Contact::warm_start(const std::vector<ContactPair> &previous)
   {
-    const auto key = [](const ContactPair &pair) {
-      return std::make_tuple(pair.interface, pair.reversed, pair.slave_id, pair.slot);
-    };
     auto old = previous.begin();
     for (auto &pair : pairs)
       {
-        while (old != previous.end() && key(*old) < key(pair))
+        while (old != previous.end() && old->key() < pair.key())
           ++old;
-        const bool known = old != previous.end() && key(*old) == key(pair);
+        const bool known = old != previous.end() && old->key() == pair.key();
         if (known)
           {
             pair.normal_force     = old->normal_force;

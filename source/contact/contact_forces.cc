@@ -1,5 +1,6 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/edge_search.h>
 #include <akmon/contact/nodal_sums.h>
 #include <akmon/contact/reproducible_sums.h>
 
@@ -136,6 +137,8 @@ namespace akmon
   bool
   Contact::reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
   {
+    if (pair.of_edges)
+      return edge_searches[pair.search].gap_at(x_reached, pair, gap);
     if (pair.interface < contacts.size())
       return pair.n_nodes > 1 && searches[pair.search].gap_at(x_reached, pair, gap);
     if (pair.slave == numbers::invalid_unsigned_int)
@@ -170,12 +173,12 @@ namespace akmon
 
   // While segments turn under a slave, surfaces are curved or bodies rotate, n . G dx + g misses a
   // part of second order of the gap that the step reaches. Measures it for all pairs that may
-  // close; returns how far it is from what the solution counted on, over what is allowed. Rigid
-  // shapes are exact: so are gaps from them.
+  // close; returns how far it is from what the solution counted on, over what is allowed.
   double
   Contact::follow_partners(const NodalState &state)
   {
-    constexpr double tolerance = 1e-7, tolerance_of_rigid = 1e-12; // over the cell size
+    // Of the cell size. Rigid shapes are exact: so are gaps from them; normals of edges turn fast.
+    constexpr double of_faces = 1e-7, of_edges = 1e-10, of_rigid = 1e-12;
 
     if (searches.empty() && bodies.empty())
       return 0.;
@@ -199,9 +202,9 @@ namespace akmon
         if (pair->normal_force > 0. || linear + curvature < allowed)
           largest = std::max(largest,
                              std::abs(curvature - pair->curvature) /
-                               (pair->size * (pair->interface < contacts.size() ?
-                                                tolerance :
-                                                tolerance_of_rigid)));
+                               (pair->size * (pair->interface >= contacts.size() ? of_rigid :
+                                              pair->of_edges                     ? of_edges :
+                                                                                   of_faces)));
         count_on(*pair, curvature);
       }
     return largest;

@@ -2,7 +2,6 @@
 #include <akmon/contact/contact.h>
 
 #include <algorithm>
-#include <tuple>
 
 // What contact carries from step to step, in checkpoints.
 
@@ -14,7 +13,7 @@ namespace akmon
   {
     // A pair's row in a checkpoint. Slaves go by their global node numbers, which are the same on
     // any number of ranks.
-    constexpr std::size_t row_width = 10;
+    constexpr std::size_t row_width = 14, of_nodes_only = 10; // before there were pairs of edges
 
 
     void
@@ -26,14 +25,17 @@ namespace akmon
       row[3] = pair.normal_force;
       for (unsigned int d = 0; d < 3; ++d)
         row[4 + d] = pair.tangential_force[d];
-      row[7] = pair.sticks ? 1. : 0.;
-      row[8] = pair.slot;
-      row[9] = pair.curvature;
+      row[7]  = pair.sticks ? 1. : 0.;
+      row[8]  = pair.slot;
+      row[9]  = pair.curvature;
+      row[10] = pair.of_edges ? 1. : 0.;
+      for (unsigned int k = 0; k < 3; ++k)
+        row[11 + k] = pair.others[k];
     }
 
 
     ContactPair
-    from_row(const double *const row)
+    from_row(const double *const row, const std::size_t width)
     {
       ContactPair pair{};
       pair.interface    = row[0];
@@ -44,6 +46,11 @@ namespace akmon
       pair.sticks    = row[7] != 0.;
       pair.slot      = row[8];
       pair.curvature = row[9];
+      if (width == of_nodes_only)
+        return pair;
+      pair.of_edges = row[10] != 0.;
+      for (unsigned int k = 0; k < 3; ++k)
+        pair.others[k] = ContactNodes::Id(row[11 + k]);
       return pair;
     }
   } // namespace
@@ -52,11 +59,12 @@ namespace akmon
   void
   Contact::save(CheckpointWriter &checkpoint) const
   {
-    // The others start from nothing, and so do pairs of two rigid bodies.
+    // The others start from nothing, and so do pairs of two rigid bodies. Edges remain a pair where
+    // they would not become one.
     std::vector<const ContactPair *> carrying;
     for (const auto &pair : pairs)
       if (pair.slave != numbers::invalid_unsigned_int &&
-          (pair.normal_force != 0. || pair.curvature != 0.))
+          (pair.normal_force != 0. || pair.curvature != 0. || pair.of_edges))
         carrying.push_back(&pair);
     checkpoint.table("contact_pairs",
                      carrying.size(),
@@ -71,23 +79,23 @@ namespace akmon
   void
   Contact::restore(const CheckpointReader &checkpoint)
   {
-    const auto &owned = discretization.partitioner->locally_owned_range();
+    const auto &owned          = discretization.partitioner->locally_owned_range();
+    const auto [n_rows, width] = checkpoint.size("contact_pairs");
     pairs.clear();
     checkpoint.rows("contact_pairs",
                     0,
-                    checkpoint.size("contact_pairs").first,
-                    [&](const std::size_t, const double *const row) {
+                    n_rows,
+                    [&, width = width](const std::size_t, const double *const row) {
                       const types::global_dof_index first_dof = 3 * row[2];
                       if (!owned.is_element(first_dof))
                         return;
-                      pairs.push_back(from_row(row));
+                      pairs.push_back(from_row(row, width));
                       pairs.back().slave = discretization.partitioner->global_to_local(first_dof) /
                                            3;
                       pairs.back().slave_id = nodes.id_of_local(pairs.back().slave);
                     });
     std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-      return std::tie(a.interface, a.reversed, a.slave_id, a.slot) <
-             std::tie(b.interface, b.reversed, b.slave_id, b.slot);
+      return a.key() < b.key();
     });
     bonds->restore(checkpoint);
     forget_shortcuts();

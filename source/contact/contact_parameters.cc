@@ -149,6 +149,12 @@ namespace akmon
       Double(0., 1.),
       "How far outside the rim of the master surface a slave node is still in contact "
       "(relative to the size of the face)");
+    prm.declare_entry(
+      "Edge angle",
+      "40",
+      Double(0., 180.),
+      "Convex edges at which a surface turns by more than this are sharp: sharp edges of both sides "
+      "that cross are kept apart, too (degrees; 180: none; not with the decoupled solver)");
     prm
       .declare_entry("Type",
                      "contact",
@@ -192,6 +198,7 @@ namespace akmon
                                                                       GapModel::point_to_segment;
     symmetric            = prm.get("Pass") == "symmetric";
     rim_tolerance        = prm.get_double("Rim tolerance");
+    edge_angle           = prm.get_double("Edge angle") * dealii::numbers::PI / 180.;
     tied                 = prm.get("Type") == "tied";
     bond_distance        = prm.get_double("Bond distance");
     bond.normal_strength = strength(prm, section, "Normal strength");

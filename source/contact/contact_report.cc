@@ -13,6 +13,18 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    // Where the force acts: at the slave node, if it is a node's.
+    Tensor<1, 3>
+    place_of(const ContactPair &pair, const NodalState &state)
+    {
+      const bool of_node = pair.slave != numbers::invalid_unsigned_int && !pair.of_edges;
+      return of_node ? at_node(state.x, pair.slave) : pair.place;
+    }
+  } // namespace
+
+
   ContactReport
   Contact::report(const NodalState &state) const
   {
@@ -32,8 +44,8 @@ namespace akmon
         if (relative > report.max_penetration_relative)
           {
             report.max_penetration_relative = relative;
-            report.place   = Point<3>(rigid ? pair.place : at_node(state.x, pair.slave));
-            report.deepest = pair.slave;
+            report.place                    = Point<3>(place_of(pair, state));
+            report.deepest                  = pair.slave;
           }
         if (!(pair.normal_force > 0.))
           continue;
@@ -46,8 +58,7 @@ namespace akmon
         const auto friction = sign * pair.tangential_force;
         interface.normal_force += normal;
         interface.friction_force += friction;
-        interface.moment += cross_product_3d(rigid ? pair.place : at_node(state.x, pair.slave),
-                                             normal + friction);
+        interface.moment += cross_product_3d(place_of(pair, state), normal + friction);
       }
     if (Utilities::MPI::this_mpi_process(discretization.communicator()) == 0) // all know the bonds
       for (unsigned int i = 0; i < contacts.size(); ++i)
@@ -66,7 +77,7 @@ namespace akmon
   {
     std::vector<Patch> result(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
-      if (pair.normal_force > 0. && pair.slave != numbers::invalid_unsigned_int)
+      if (pair.normal_force > 0. && !pair.of_edges && pair.slave != numbers::invalid_unsigned_int)
         {
           const bool both_sides = solver.type != ContactSolver::Type::decoupled &&
                                   pair.interface < contacts.size() &&
@@ -126,7 +137,7 @@ namespace akmon
     if (deepest)
       {
         const bool rigid = deepest->slave == numbers::invalid_unsigned_int;
-        const auto place = rigid ? deepest->place : at_node(state.x, deepest->slave);
+        const auto place = place_of(*deepest, state);
         message          = "[" +
                   std::string(deepest->interface < contacts.size() ? "Contact/" : "Obstacles/") +
                   law_of(*deepest).name + "] " +

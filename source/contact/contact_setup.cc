@@ -1,5 +1,6 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/edge_search.h>
 #include <akmon/parameters.h>
 
 #include <algorithm>
@@ -30,6 +31,26 @@ namespace akmon
             searches.emplace_back(discretization, contact, i, searches.size(), true, levers);
         }
       return searches;
+    }
+
+
+    // One for every contact, in their order; none with the decoupled solver, which takes pairs that
+    // share nodes for each other's strangers.
+    std::vector<EdgeSearch>
+    make_edge_searches(const Discretization &discretization,
+                       const ContactSolver &solver,
+                       const std::vector<SurfaceContact> &contacts,
+                       const std::vector<SurfaceSearch> &searches)
+    {
+      std::vector<EdgeSearch> edge_searches;
+      if (solver.type != ContactSolver::Type::decoupled)
+        for (const auto &search : searches)
+          if (search.get_interface() == edge_searches.size())
+            edge_searches.emplace_back(discretization,
+                                       contacts[edge_searches.size()],
+                                       search,
+                                       edge_searches.size());
+      return edge_searches;
     }
 
 
@@ -108,6 +129,7 @@ namespace akmon
     , contacts(contacts)
     , bodies(bodies)
     , searches(make_searches(discretization, solver, contacts))
+    , edge_searches(make_edge_searches(discretization, solver, contacts, searches))
     , obstacle_searches(make_obstacle_searches(discretization, bodies, contacts.size()))
     , rigid_touches(make_rigid_touches(bodies, contacts.size()))
     , rigid_nodes(bodies)

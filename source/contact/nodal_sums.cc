@@ -17,9 +17,11 @@ namespace akmon
           const Share &share = shares[i];
           return std::make_tuple(share.node,
                                  share.interface,
+                                 share.of_edges,
                                  share.reversed,
                                  share.slave,
-                                 share.slot);
+                                 share.slot,
+                                 share.others);
         };
         order.resize(shares.size());
         std::iota(order.begin(), order.end(), 0U);

@@ -156,8 +156,12 @@ namespace akmon
                       last,
                       [&](const unsigned int i, const ClosedPair &other) {
                         const ContactPair &pair = *pairs[i];
-                        return Key(pair.slave_id, pair.interface, pair.slot, pair.reversed) ==
-                                 other.key() &&
+                        return Key(pair.slave_id,
+                                   pair.interface,
+                                   pair.slot,
+                                   pair.reversed,
+                                   pair.of_edges,
+                                   pair.others) == other.key() &&
                                alike(other.face, faces[i]);
                       });
   }
@@ -170,7 +174,15 @@ namespace akmon
     for (const unsigned int i : own)
       {
         const ContactPair &pair = *pairs[i];
-        ClosedPair c{pair.slave_id, pair.interface, pair.slot, pair.reversed, faces[i], 0, {}};
+        ClosedPair c{pair.slave_id,
+                     pair.interface,
+                     pair.slot,
+                     pair.reversed,
+                     pair.of_edges,
+                     pair.others,
+                     faces[i],
+                     0,
+                     {}};
         for (unsigned int k = 0; k < pair.n_nodes; ++k)
           if (const unsigned int node = pair.nodes[k];
               !mobility.is_common(node) && !mobility.is_held(node))

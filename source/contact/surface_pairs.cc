@@ -8,38 +8,6 @@ namespace akmon
 {
   using namespace dealii;
 
-  namespace
-  {
-    // What the lever of a pair needs (see ContactPair): the corners' places from their centre, and
-    // [o x] I^{-1}.
-    void
-    set_lever(const Segment &corners, const Tensor<1, 3> &offset, ContactPair &pair)
-    {
-      const auto centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-      SymmetricTensor<2, 3> inertia;
-      for (unsigned int k = 0; k < 4; ++k)
-        {
-          const auto r     = corners[k] - centre;
-          pair.arms[k]     = r;
-          const double r_r = r * r;
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = i; j < 3; ++j)
-              inertia[i][j] += (i == j ? r_r : 0.) - r[i] * r[j];
-        }
-      const Tensor<2, 3> inverse = invert(inertia);
-      for (unsigned int j = 0; j < 3; ++j)
-        {
-          const auto column = cross_product_3d(offset,
-                                               Tensor<1, 3>(
-                                                 {inverse[0][j], inverse[1][j], inverse[2][j]}));
-          for (unsigned int i = 0; i < 3; ++i)
-            pair.lever[i][j] = column[i];
-        }
-      pair.levered = true;
-    }
-  } // namespace
-
-
   Segment
   SurfaceSearch::segment(const ContactNodes::Field &x, const MasterFace &face) const
   {
@@ -199,6 +167,7 @@ namespace akmon
     pair.size       = slaves[slave].size;
     pair.stiffness  = std::min(slaves[slave].stiffness, masters[partner.face].stiffness);
     pair.nodes[0]   = slaves[slave].number;
+    pair.place      = x[slaves[slave].number];
     pair.weights[0] = 1.;
 
     // Forces along the offset make no couple.
@@ -214,7 +183,7 @@ namespace akmon
           pair.weights[pair.n_nodes++] = -partner.projection.N[k];
         }
     if (levered)
-      set_lever(segment(x, masters[partner.face]), offset, pair);
+      set_lever(segment(x, masters[partner.face]), 1, offset, pair);
     return pair;
   }
 

@@ -259,7 +259,7 @@ namespace akmon
         if (pair.slave == numbers::invalid_unsigned_int) // of rigid bodies
           continue;
         double &gap = scalars.local_element(3 * pair.slave + 1);
-        if (!(gap < pair.gap))
+        if (!pair.of_edges && !(gap < pair.gap))
           gap = pair.gap;
         if (pair.normal_force > 0.) // a slave's own pair counts before those it is a master of
           scalars.local_element(3 * pair.slave + 2) = pair.sticks ? 2. : 1.;

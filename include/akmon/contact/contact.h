@@ -20,6 +20,8 @@
 namespace akmon
 {
   class Bonds;
+  class EdgeSearch;
+
   /// What contact did at an interface, over this rank's pairs. Forces act on the surfaces named as
   /// slaves; those of an obstacle on what it touches.
   struct InterfaceReport
@@ -220,6 +222,8 @@ namespace akmon
     void
     rebuild_candidates(const NodalState &state, const double reach);
     double
+    radius_of_edges(const unsigned int interface) const;
+    double
     fastest_motion(const NodalState &state) const;
     void
     add_rigid_motions(ContactNodes::Field &field,
@@ -271,6 +275,7 @@ namespace akmon
     const std::vector<SurfaceContact> &contacts;
     std::vector<RigidBody> &bodies;
     std::vector<SurfaceSearch> searches;
+    std::vector<EdgeSearch> edge_searches;         ///< one per contact, or none
     std::vector<ObstacleSearch> obstacle_searches; ///< one per body
     std::vector<RigidTouch> rigid_touches;         ///< of bodies that may meet
     const RigidNodes rigid_nodes;

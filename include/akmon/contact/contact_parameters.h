@@ -70,6 +70,7 @@ namespace akmon
     GapModel gap_model   = GapModel::point_to_segment;
     bool symmetric       = true;  ///< both sides are slave and master
     double rim_tolerance = 0.;    ///< of a face's size
+    double edge_angle    = 0.7;   ///< least turn of a surface at its sharp edges; radians
     bool tied            = false; ///< bonded at the start
     double bond_distance = 0.;    ///< how far apart tied surfaces may be, over the face size
     BondLaw bond;

@@ -3,13 +3,14 @@
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/pair.h>
 
+#include <array>
 #include <vector>
 
 namespace akmon
 {
   /**
    * Sums over contact pairs at their nodes, in an order that does not depend on the number of
-   * ranks: that of interfaces, sides, slaves and slots, which every rank's own pairs are in.
+   * ranks: that of their keys, which every rank's own pairs are in.
    */
   class NodalSums
   {
@@ -40,7 +41,8 @@ namespace akmon
       ContactNodes::Id node;
       ContactNodes::Id slave;
       unsigned int interface, slot;
-      bool reversed;
+      bool of_edges, reversed;
+      std::array<ContactNodes::Id, 3> others;
       dealii::Tensor<1, 3> value;
     };
 
@@ -82,7 +84,9 @@ namespace akmon
                               pair.slave_id,
                               pair.interface,
                               pair.slot,
+                              pair.of_edges,
                               pair.reversed,
+                              pair.others,
                               value(i, k)});
         }
     if (nodes.is_parallel())

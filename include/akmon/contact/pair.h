@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace akmon
 {
@@ -14,14 +15,19 @@ namespace akmon
    * G u = u_s - sum_k N_k u_k (56), the unit normal and the gap, and the contact forces found for
    * it. Against an obstacle the slave is the only node.
    *
+   * Or two edges that cross: G u = (1-s) u_a + s u_b - (1-t) u_c - t u_d with the nodes a, b of the
+   * slave's edge and c, d of the master's, and the closest points at the parts s and t of them. The
+   * normal is that of both edges; a stands for the slave where one node is asked for.
+   *
    * While a gap o = x_s - sum_k N_k x_k is open, opposite forces at both its ends are a couple
    * o x t, and a rigid rotation changes G u. Where that matters the operator is
    *
    *     G u = u_s - sum_k N_k u_k - theta x o,     theta = I^{-1} sum_k r_k x u_k
    *
-   * with the mean rotation theta of the segment's corners, r_k their places from their centre and I
-   * = sum_k (r_k.r_k 1 - r_k r_k): G vanishes for rigid motions, and forces G^T t have neither a
-   * resultant nor a moment, so that angular momentum is conserved exactly.
+   * with the mean rotation theta of the segment's corners (of the ends of both edges), r_k their
+   * places from their centre and I = sum_k (r_k.r_k 1 - r_k r_k): G vanishes for rigid motions, and
+   * forces G^T t have neither a resultant nor a moment, so that angular momentum is conserved
+   * exactly.
    *
    * A rigid body that moves has two contact nodes, one with its centre's motion u_c and one with
    * its rotation theta: it moves by u_c + theta x r at the slave's place r from the centre. The
@@ -30,9 +36,11 @@ namespace akmon
   struct ContactPair
   {
     unsigned int interface; ///< number of the contact or obstacle
+    bool of_edges = false;  ///< two edges that cross, not a node and a segment
     bool reversed = false;  ///< slave and master of the interface change roles
     unsigned int slave;     ///< local number of the (owned) slave node
     ContactNodes::Id slave_id;
+    std::array<ContactNodes::Id, 3> others{}; ///< of two edges: ids of the nodes b, c, d
     unsigned int slot    = 0;     ///< 0: with the closest face; else with another face of a corner
     bool shares_corner   = false; ///< the slave has pairs with several faces, each for itself
     unsigned int search  = 0;     ///< that found it: its number, of the slave and of the face there
@@ -52,7 +60,7 @@ namespace akmon
 
     bool levered = false;
     dealii::Tensor<2, 3> lever;               ///< [o x] I^{-1}; 1/length
-    std::array<dealii::Tensor<1, 3>, 4> arms; ///< r_k of the masters; length
+    std::array<dealii::Tensor<1, 3>, 5> arms; ///< r_k of the points, zero for a slave; length
 
     dealii::Tensor<1, 3> plane_normal; ///< of the partner if rigid, in its frame
     double plane_offset = 0.;          ///< the plane is plane_normal . X = plane_offset; length
@@ -68,6 +76,13 @@ namespace akmon
     force() const
     {
       return normal_force * normal + tangential_force;
+    }
+
+    /// What a pair is known by from step to step. Lists of pairs are sorted by it.
+    auto
+    key() const
+    {
+      return std::make_tuple(interface, of_edges, reversed, slave_id, slot, others);
     }
 
     /// Number of nodes that are no rotations.
@@ -89,8 +104,8 @@ namespace akmon
       if (levered)
         {
           dealii::Tensor<1, 3> turn;
-          for (unsigned int k = 1; k < n_points(); ++k)
-            turn += cross_product_3d(arms[k - 1], u[nodes[k]]);
+          for (unsigned int k = 0; k < n_points(); ++k)
+            turn += cross_product_3d(arms[k], u[nodes[k]]);
           result += lever * turn;
         }
       return result;
@@ -102,8 +117,8 @@ namespace akmon
     {
       if (k >= n_points())
         return weights[k] * cross_product_3d(radii[k - n_points()], t);
-      if (levered && k > 0)
-        return weights[k] * t + cross_product_3d(t * lever, arms[k - 1]);
+      if (levered)
+        return weights[k] * t + cross_product_3d(t * lever, arms[k]);
       return weights[k] * t;
     }
 
@@ -113,7 +128,7 @@ namespace akmon
     {
       if (k >= n_points())
         return std::abs(weights[k]) * radii[k - n_points()].norm();
-      return std::abs(weights[k]) + (levered && k > 0 ? lever.norm() * arms[k - 1].norm() : 0.);
+      return std::abs(weights[k]) + (levered ? lever.norm() * arms[k].norm() : 0.);
     }
 
     /// f += G^T t
@@ -131,4 +146,16 @@ namespace akmon
       return v - (normal * v) * normal;
     }
   };
+
+
+  /**
+   * Make a pair's operator vanish for rigid motions (see ContactPair).
+   * @param corners  whose mean rotation counts, the pair's points from number @p first on; length
+   * @param offset   o; length
+   */
+  void
+  set_lever(const std::array<dealii::Tensor<1, 3>, 4> &corners,
+            const unsigned int first,
+            const dealii::Tensor<1, 3> &offset,
+            ContactPair &pair);
 } // namespace akmon

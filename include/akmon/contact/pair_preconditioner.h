@@ -73,14 +73,20 @@ namespace akmon
 
   private:
     // Which pair it is, beyond the step.
-    using Key = std::tuple<ContactNodes::Id, unsigned int, unsigned int, bool>;
+    using Key = std::tuple<ContactNodes::Id,
+                           unsigned int,
+                           unsigned int,
+                           bool,
+                           bool,
+                           std::array<ContactNodes::Id, 3>>;
 
     // A closed pair of any rank, with the nodes that couple it.
     struct ClosedPair
     {
       ContactNodes::Id slave;
       unsigned int interface, slot;
-      bool reversed;
+      bool reversed, of_edges;
+      std::array<ContactNodes::Id, 3> others;
       CoulombFace face;
       unsigned int n_nodes;
       std::array<ContactNodes::Id, 7> nodes;
@@ -88,7 +94,7 @@ namespace akmon
       Key
       key() const
       {
-        return {slave, interface, slot, reversed};
+        return {slave, interface, slot, reversed, of_edges, others};
       }
     };
 

@@ -34,6 +34,12 @@ namespace akmon
                   const bool reversed,
                   const bool coupled);
 
+    unsigned int
+    get_interface() const
+    {
+      return interface;
+    }
+
     /// Distance over which partners are looked for; length. The same on all ranks.
     double
     radius() const
@@ -85,6 +91,19 @@ namespace akmon
     surface_faces() const
     {
       return faces;
+    }
+
+    /// Relevant faces of either side.
+    const std::vector<BoundaryFace> &
+    get_slave_faces() const
+    {
+      return slave_faces;
+    }
+
+    const std::vector<BoundaryFace> &
+    get_master_faces() const
+    {
+      return master_faces;
     }
 
   private:
