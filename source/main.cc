@@ -8,6 +8,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <regex>
 #include <thread>
@@ -132,6 +133,18 @@ namespace
   }
 
 
+  // Open MPI gives every file it opens a shared file pointer, in a semaphore of /dev/shm under the
+  // file's name without its directory. One that a killed run leaves taken makes every later run
+  // that writes a file of this name wait for ever. No file of ours is written through a shared
+  // pointer: keep to the only kind that makes nothing of the sort before it is used. Other MPI
+  // libraries do not know this variable; what the user has set stays.
+  void
+  avoid_shared_file_pointers()
+  {
+    setenv("OMPI_MCA_sharedfp", "individual", 0);
+  }
+
+
   void
   report(const std::string &error)
   {
@@ -144,6 +157,7 @@ namespace
 int
 main(int argc, char **argv)
 {
+  avoid_shared_file_pointers();
   const dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   const bool root = dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
   MPI_Comm for_errors;
