@@ -12,7 +12,7 @@ namespace akmon
   {
     // All ranks may be on this machine.
     constexpr double bytes_per_cell = 1000.;
-    const double memory  = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
+    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     double needed = 0., most = 0.;
     const Body *largest = nullptr;
     for (const auto &body : bodies)
