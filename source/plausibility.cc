@@ -1,3 +1,4 @@
+#include <akmon/model/hexahedron_cell.h>
 #include <akmon/output/history.h>
 #include <akmon/plausibility.h>
 
@@ -331,21 +332,25 @@ namespace akmon
     {
       constexpr double tolerance = 1e-6; // in the reference cell
       const MappingQ1<3> mapping;
+      HexahedronCell hexahedron;
       for (const auto &probe : parameters.probes)
         {
           int inside = 0;
-          for (const auto &cell : discretization.cells)
-            if (parameters.bodies[cell.body].name == probe.body &&
-                (probe.point - cell.cell->center()).norm() <= cell.cell->diameter())
-              try
-                {
-                  const auto unit = mapping.transform_real_to_unit_cell(cell.cell, probe.point);
-                  inside |= GeometryInfo<3>::is_inside_unit_cell(unit, tolerance);
-                }
-              catch (const Mapping<3>::ExcTransformationFailed &)
-                {
-                  // far outside of a distorted cell
-                }
+          for (const auto &relevant : discretization.cells)
+            if (parameters.bodies[relevant.body].name == probe.body)
+              {
+                const auto cell = hexahedron.at(discretization.corners_of(relevant));
+                if ((probe.point - cell->center()).norm() <= cell->diameter())
+                  try
+                    {
+                      const auto unit = mapping.transform_real_to_unit_cell(cell, probe.point);
+                      inside |= GeometryInfo<3>::is_inside_unit_cell(unit, tolerance);
+                    }
+                  catch (const Mapping<3>::ExcTransformationFailed &)
+                    {
+                      // far outside of a distorted cell
+                    }
+              }
           if (Utilities::MPI::max(inside, comm) == 0)
             warnings.push_back("probe '" + probe.name + "' lies outside body '" + probe.body +
                                "'; it sits on the closest node");

@@ -1,4 +1,5 @@
 #include <akmon/contact/initial_overlap.h>
+#include <akmon/model/hexahedron_cell.h>
 #include <akmon/output/directory.h>
 #include <akmon/output/summary.h>
 #include <akmon/plausibility.h>
@@ -79,7 +80,7 @@ namespace akmon
                  state,
                  parameters.body_force.damping,
                  parameters.body_force.damping_end)
-    , n_cells(discretization.triangulation.n_global_active_cells())
+    , n_cells(discretization.n_global_cells)
     , stages(timer)
   {
     added_mass                = scale_masses(discretization,
@@ -278,7 +279,7 @@ namespace akmon
         !discretization.cells.empty())
       {
         const auto &cell = discretization.cells[internal_forces.limiting_cell()];
-        const auto place = cell.cell->center();
+        const auto place = HexahedronCell().at(discretization.corners_of(cell))->center();
         limit = "cell " + std::to_string(cell.id) + " of '" + parameters.bodies[cell.body].name +
                 "' at (" + shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
                 shortest_text(place[2]) + ")";
@@ -300,7 +301,7 @@ namespace akmon
     screen.header({{"case", parameters.title},
                    {"bodies", bodies},
                    {"cells", std::to_string(n_cells)},
-                   {"nodes", std::to_string(discretization.dof_handler.n_dofs() / 3)},
+                   {"nodes", std::to_string(discretization.n_global_nodes)},
                    {"ranks", std::to_string(Utilities::MPI::n_mpi_processes(communicator))},
                    {"SIMD lanes", std::to_string(n_lanes)},
                    {"time step",

@@ -74,7 +74,7 @@ namespace akmon
         CheckpointWriter checkpoint(path, communicator);
         checkpoint.text("title", parameters.title);
         checkpoint.integer("for_looking_only", for_looking_only ? 1 : 0);
-        checkpoint.integer("n_nodes", discretization.dof_handler.n_dofs() / 3);
+        checkpoint.integer("n_nodes", discretization.n_global_nodes);
         checkpoint.integer("n_cells", n_cells);
         checkpoint.integer("fingerprint", fingerprint(discretization));
         checkpoint.numbers("checkpoint_tick", {checkpoint_tick.next});
@@ -137,7 +137,7 @@ namespace akmon
     try
       {
         const CheckpointReader reader(checkpoint);
-        const std::string here  = counts(discretization.dof_handler.n_dofs() / 3, n_cells);
+        const std::string here  = counts(discretization.n_global_nodes, n_cells);
         const std::string there = counts(reader.integer("n_nodes"), reader.integer("n_cells"));
         if (reader.integer("for_looking_only") != 0)
           refuse("it shows a state that could not go on");

@@ -97,14 +97,15 @@ namespace akmon
   }
 
 
-  // Forces, and again while the gaps that they lead to are not what the linear constraints promise.
+  // Forces, and again while the gaps that they lead to are not what the linear constraints promise;
+  // not where the solver has failed, which it would do again.
   void
   Contact::solve_coupled(const NodalState &state)
   {
     constexpr unsigned int most_rounds = 8;
 
     coupled.solve(dx_free);
-    for (unsigned int round = 1; round < most_rounds; ++round)
+    for (unsigned int round = 1; round < most_rounds && coupled.converged(); ++round)
       {
         if (Utilities::MPI::max(follow_partners(state), discretization.communicator()) <= 1.)
           return;

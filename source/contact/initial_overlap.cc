@@ -1,5 +1,6 @@
 #include <akmon/contact/initial_overlap.h>
 #include <akmon/contact/projection.h>
+#include <akmon/model/hexahedron_cell.h>
 #include <akmon/output/history.h>
 #include <akmon/parameters.h>
 
@@ -91,12 +92,13 @@ namespace akmon
     };
 
 
+    template <typename Corners>
     Box
-    box_of(const CellIterator &cell)
+    box_of(const Corners &corners)
     {
       Box box;
-      for (const unsigned int v : cell->vertex_indices())
-        box.add(cell->vertex(v));
+      for (const auto &corner : corners)
+        box.add(Point<3>(corner));
       return box;
     }
 
@@ -126,7 +128,7 @@ namespace akmon
         std::vector<Box> own(discretization.get_bodies().size());
         for (const auto &cell : discretization.cells)
           if (cell.owned)
-            own[cell.body].add(box_of(cell.cell));
+            own[cell.body].add(box_of(discretization.corners_of(cell)));
         of_ranks = Utilities::MPI::all_gather(discretization.communicator(), own);
         whole.resize(own.size());
         for (const auto &of_rank : of_ranks)
@@ -169,16 +171,17 @@ namespace akmon
       const MPI_Comm communicator = discretization.communicator();
       const unsigned int me       = Utilities::MPI::this_mpi_process(communicator);
       std::map<unsigned int, std::vector<Sample>> outgoing;
-      for (const auto &cell : discretization.cells)
-        if (cell.owned && !boxes.partners[cell.body].empty())
-          for (const unsigned int f : cell.cell->face_indices())
-            if (cell.cell->face(f)->at_boundary())
-              for (const auto &place : places_at(cell.cell, f))
-                for (const unsigned int partner : boxes.partners[cell.body])
-                  if (boxes.whole[partner].contains(place))
-                    for (unsigned int rank = 0; rank < boxes.of_ranks.size(); ++rank)
-                      if (boxes.of_ranks[rank][partner].contains(place))
-                        outgoing[rank].push_back({place, cell.body, partner, 0.});
+      HexahedronCell hexahedron;
+      for (const auto &face : discretization.boundary_faces())
+        if (face.owned && !boxes.partners[face.body].empty())
+          for (const auto &place :
+               places_at(hexahedron.at(discretization.corners_of(discretization.cells[face.cell])),
+                         face.id % 6))
+            for (const unsigned int partner : boxes.partners[face.body])
+              if (boxes.whole[partner].contains(place))
+                for (unsigned int rank = 0; rank < boxes.of_ranks.size(); ++rank)
+                  if (boxes.of_ranks[rank][partner].contains(place))
+                    outgoing[rank].push_back({place, face.body, partner, 0.});
       std::vector<Sample> samples = std::move(outgoing[me]);
       outgoing.erase(me);
       for (const auto &[rank, received] : Utilities::MPI::some_to_some(communicator, outgoing))
@@ -213,18 +216,16 @@ namespace akmon
         , trees(boxes.whole.size())
       {
         std::vector<std::vector<std::pair<BoundingBox<3>, unsigned int>>> entries(faces.size());
-        for (const auto &cell : discretization.cells)
-          if (!boxes.partners[cell.body].empty())
-            for (const unsigned int f : cell.cell->face_indices())
-              if (const auto face = cell.cell->face(f); face->at_boundary())
-                {
-                  Box box;
-                  for (unsigned int k = 0; k < 4; ++k)
-                    box.add(face->vertex(k));
-                  entries[cell.body].emplace_back(box.bounding_box(), faces[cell.body].size());
-                  faces[cell.body].push_back(
-                    {{face->vertex(0), face->vertex(1), face->vertex(3), face->vertex(2)}});
-                }
+        for (const auto &face : discretization.boundary_faces())
+          if (!boxes.partners[face.body].empty())
+            {
+              Segment corners;
+              for (unsigned int k = 0; k < 4; ++k)
+                corners[k] = at_node(discretization.reference, face.nodes[k]);
+              entries[face.body].emplace_back(box_of(corners).bounding_box(),
+                                              faces[face.body].size());
+              faces[face.body].push_back(corners);
+            }
         for (unsigned int body = 0; body < faces.size(); ++body)
           trees[body] = pack_rtree(entries[body]);
       }
@@ -268,7 +269,7 @@ namespace akmon
         {
           const auto &cell   = discretization.cells[c];
           const auto &others = boxes.partners[cell.body];
-          const Box box      = box_of(cell.cell);
+          const Box box      = box_of(discretization.corners_of(cell));
           if (cell.owned &&
               std::any_of(others.begin(), others.end(), [&](const unsigned int other) {
                 return box.meets(boxes.whole[other]);
@@ -277,18 +278,20 @@ namespace akmon
         }
       const auto tree = pack_rtree(entries);
 
+      HexahedronCell hexahedron;
       std::vector<Sample> found;
       for (auto &sample : samples)
         {
           bool inside = false;
           tree.query(boost::geometry::index::intersects(sample.place),
                      boost::make_function_output_iterator([&](const auto &entry) {
-                       const auto &cell = discretization.cells[entry.second];
-                       if (!inside && cell.body == sample.outside &&
-                           lies_in(sample.place, cell.cell))
+                       const auto &relevant = discretization.cells[entry.second];
+                       const auto cell      = hexahedron.at(discretization.corners_of(relevant));
+                       if (!inside && relevant.body == sample.outside &&
+                           lies_in(sample.place, cell))
                          {
                            inside           = true;
-                           sample.tolerance = tolerated * cell.cell->minimum_vertex_distance();
+                           sample.tolerance = tolerated * cell->minimum_vertex_distance();
                          }
                      }));
           if (inside && boundaries.distance(sample.place, sample.outside) > sample.tolerance)

@@ -1,15 +1,11 @@
 #include <akmon/forces/trilinear.h>
-#include <akmon/model/body_mesh.h>
 #include <akmon/model/discretization.h>
 #include <akmon/model/mesh_size.h>
 #include <akmon/parameters.h>
 
-#include <deal.II/dofs/dof_renumbering.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/grid/grid_tools.h>
-
 #include <algorithm>
+#include <functional>
+#include <malloc.h>
 
 namespace akmon
 {
@@ -17,57 +13,23 @@ namespace akmon
 
   namespace
   {
-    // Volume centroid of a coarse mesh, the same bits on every rank because every rank has all of
-    // it.
-    Point<3>
-    centroid(const BodyMesh &mesh)
-    {
-      double volume = 0.;
-      Point<3> moment;
-      for (const auto &cell : mesh.cells)
-        {
-          Point<3> centre;
-          std::vector<Point<3>> corners;
-          for (const unsigned int v : cell.vertices)
-            {
-              corners.push_back(mesh.vertices[v]);
-              centre += mesh.vertices[v] / 8.;
-            }
-          const double cell_volume = GridTools::cell_measure<3>(mesh.vertices,
-                                                                ArrayView<const unsigned int>(
-                                                                  cell.vertices));
-          volume += cell_volume;
-          moment += cell_volume * centre;
-        }
-      return moment / volume;
-    }
-
-
-    // Visit the active cells below (and at) a cell along the space-filling curve.
-    template <typename Iterator, typename Visitor>
+    // What the task throws, all ranks throw.
     void
-    visit_along_curve(const Iterator &cell, const Visitor &visitor)
+    on_first_rank(const MPI_Comm communicator, const std::function<void()> &task)
     {
-      if (cell->has_children())
-        for (unsigned int child = 0; child < cell->n_children(); ++child)
-          visit_along_curve(cell->child(child), visitor);
-      else if (!cell->is_artificial())
-        visitor(cell);
-    }
-
-
-    // The four local corner numbers of a right-handed cell's face, counter-clockwise seen from
-    // outside.
-    std::array<unsigned int, 4>
-    outward_corners(const unsigned int face)
-    {
-      static constexpr std::array<std::array<unsigned int, 4>, 6> corners = {{{{0, 4, 6, 2}},
-                                                                              {{1, 3, 7, 5}},
-                                                                              {{0, 1, 5, 4}},
-                                                                              {{2, 6, 7, 3}},
-                                                                              {{0, 2, 3, 1}},
-                                                                              {{4, 5, 7, 6}}}};
-      return corners[face];
+      std::string failure;
+      try
+        {
+          if (Utilities::MPI::this_mpi_process(communicator) == 0)
+            task();
+        }
+      catch (const InputError &error)
+        {
+          failure = error.what();
+        }
+      failure = Utilities::MPI::broadcast(communicator, failure);
+      if (!failure.empty())
+        throw InputError(failure);
     }
   } // namespace
 
@@ -76,10 +38,7 @@ namespace akmon
                                  const std::vector<Material> &materials,
                                  const MPI_Comm communicator,
                                  const ExtraWork &extra_work)
-    : triangulation(communicator)
-    , fe(FE_Q<3>(1), 3)
-    , dof_handler(triangulation)
-    , bodies(bodies)
+    : bodies(bodies)
     , materials(materials)
   {
     for (const auto &body : bodies)
@@ -94,225 +53,41 @@ namespace akmon
                            "there is no material of this name in Materials/Names");
         body_material.push_back(found - materials.begin());
       }
-    refuse_too_large_meshes(bodies, communicator);
-    build_triangulation();
-    share_out(extra_work);
-    number_nodes();
-    collect_cells();
-    collect_faces();
+    refuse_too_large_meshes(bodies);
+    GlobalMesh mesh;
+    on_first_rank(communicator, [&]() { mesh = make_global_mesh(bodies, outlines); });
+    outlines = Utilities::MPI::broadcast(communicator, outlines);
+    take(share_out(std::move(mesh), extra_work, communicator), communicator);
+    malloc_trim(0); // what the mesh took is kept for further use otherwise
     lump_masses();
   }
 
 
   void
-  Discretization::build_triangulation()
+  Discretization::take(MeshShare share, const MPI_Comm communicator)
   {
-    std::vector<Point<3>> vertices;
-    std::vector<CellData<3>> coarse_cells;
-    SubCellData boundary;
-    std::map<types::boundary_id, CurvedSurface> curved;
-    types::boundary_id next_id = 0;
+    n_global_cells = share.n_global_cells;
+    n_owned_cells  = share.n_owned_cells;
+    n_global_nodes = share.n_global_nodes;
+    n_owned_nodes  = share.n_owned_nodes;
+    n_nodes        = share.nodes.size();
+    cells          = std::move(share.cells);
+    faces          = std::move(share.faces);
 
-    for (unsigned int b = 0; b < bodies.size(); ++b)
-      {
-        BodyMesh mesh = make_body_mesh(bodies[b].mesh, "Bodies/" + bodies[b].section_name());
-        mesh.place(bodies[b].rotation, bodies[b].position);
-        centres.push_back(centroid(mesh));
-
-        const unsigned int first_vertex = vertices.size();
-        vertices.insert(vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
-        for (auto &cell : mesh.cells)
-          {
-            for (auto &v : cell.vertices)
-              v += first_vertex;
-            cell.material_id = b;
-            coarse_cells.push_back(cell);
-          }
-        types::boundary_id largest = 0;
-        for (auto &face : mesh.faces.boundary_quads)
-          {
-            for (auto &v : face.vertices)
-              v += first_vertex;
-            largest = std::max(largest, face.boundary_id);
-            face.boundary_id += next_id;
-            boundary.boundary_quads.push_back(face);
-          }
-        parts.emplace_back();
-        for (const auto &[name, ids] : mesh.parts)
-          for (const auto id : ids)
-            parts.back()[name].insert(id + next_id);
-        for (const auto &[id, surface] : mesh.curved)
-          curved[id + next_id] = surface;
-        next_id += largest + 1;
-      }
-
-    triangulation.create_triangulation(vertices, coarse_cells, boundary);
-    for (const auto &[id, surface] : curved)
-      triangulation.set_manifold(id + 1, *surface.make_manifold());
-    for (const auto &cell : triangulation.active_cell_iterators())
-      for (const unsigned int f : cell->face_indices())
-        if (cell->face(f)->at_boundary() && curved.count(cell->face(f)->boundary_id()) > 0)
-          cell->face(f)->set_all_manifold_ids(cell->face(f)->boundary_id() + 1);
-
-    unsigned int deepest = 0;
-    for (const auto &body : bodies)
-      deepest = std::max(deepest, body.refinement);
-    for (unsigned int level = 0; level < deepest; ++level)
-      {
-        for (const auto &cell : triangulation.active_cell_iterators())
-          if (cell->is_locally_owned() && bodies[cell->material_id()].refinement > level)
-            cell->set_refine_flag();
-        triangulation.execute_coarsening_and_refinement();
-      }
-  }
-
-
-  // Ranks keep consecutive stretches of the space-filling curve, of equal work instead of equal
-  // numbers of cells.
-  void
-  Discretization::share_out(const ExtraWork &extra_work)
-  {
-    if (extra_work.empty())
-      return;
-    std::vector<unsigned int> extra(triangulation.n_active_cells(), 0);
-    types::global_cell_index next_id = first_owned_cell();
-    for (const auto tree : triangulation.get_p4est_tree_to_coarse_cell_permutation())
-      visit_along_curve(Triangulation<3>::cell_iterator(&triangulation, 0, tree),
-                        [&](const Triangulation<3>::cell_iterator &cell) {
-                          if (!cell->is_locally_owned())
-                            return;
-                          const auto found = extra_work.find(next_id++);
-                          if (found != extra_work.end())
-                            extra[cell->active_cell_index()] = found->second;
-                        });
-    constexpr unsigned int of_cell = 1000;
-    const auto connection          = triangulation.signals.weight.connect(
-      [&](const Triangulation<3>::cell_iterator &cell, const Triangulation<3>::CellStatus) {
-        return of_cell + extra[cell->active_cell_index()];
-      });
-    triangulation.repartition();
-    connection.disconnect();
-  }
-
-
-  // Number of cells that lower ranks own.
-  types::global_cell_index
-  Discretization::first_owned_cell() const
-  {
-    types::global_cell_index n = triangulation.n_locally_owned_active_cells(), first = 0;
-    MPI_Exscan(&n,
-               &first,
-               1,
-               Utilities::MPI::mpi_type_id_for_type<types::global_cell_index>,
-               MPI_SUM,
-               communicator());
-    return first;
-  }
-
-
-  void
-  Discretization::number_nodes()
-  {
-    dof_handler.distribute_dofs(fe);
-    // First touch along the space-filling curve. Ranks own consecutive stretches of the curve and a
-    // shared node belongs to the lowest rank, so the numbers are those of a single rank.
-    DoFRenumbering::hierarchical(dof_handler);
-    n_owned_nodes = dof_handler.n_locally_owned_dofs() / 3;
-  }
-
-
-  void
-  Discretization::collect_cells()
-  {
-    const IndexSet &owned         = dof_handler.locally_owned_dofs();
-    const auto touches_owned_node = [&](const std::vector<types::global_dof_index> &dofs) {
-      return std::any_of(dofs.begin(), dofs.end(), [&](const auto i) {
-        return owned.is_element(i);
-      });
-    };
-
-    // Cells along the curve; ids count the owned cells of all lower ranks first.
-    std::vector<DoFHandler<3>::cell_iterator> relevant;
-    std::vector<types::global_cell_index> ids(triangulation.n_active_cells());
-    std::vector<types::global_dof_index> dofs(fe.n_dofs_per_cell()), needed;
-    types::global_cell_index next_id = first_owned_cell();
-    const auto visitor               = [&](const DoFHandler<3>::cell_iterator &cell) {
-      const DoFHandler<3>::active_cell_iterator active(cell);
-      if (cell->is_locally_owned())
-        ids[active->active_cell_index()] = next_id++;
-      active->get_dof_indices(dofs);
-      if (cell->is_locally_owned() || touches_owned_node(dofs))
-        {
-          relevant.push_back(cell);
-          needed.insert(needed.end(), dofs.begin(), dofs.end());
-        }
-    };
-    for (const auto tree : triangulation.get_p4est_tree_to_coarse_cell_permutation())
-      visit_along_curve(DoFHandler<3>::cell_iterator(&triangulation, 0, tree, &dof_handler),
-                        visitor);
-    GridTools::exchange_cell_data_to_ghosts<types::global_cell_index, DoFHandler<3>>(
-      dof_handler,
-      [&](const auto &cell) { return ids[cell->active_cell_index()]; },
-      [&](const auto &cell, const types::global_cell_index id) {
-        ids[cell->active_cell_index()] = id;
-      });
-
-    std::sort(needed.begin(), needed.end());
-    needed.erase(std::unique(needed.begin(), needed.end()), needed.end());
-    IndexSet ghosts(dof_handler.n_dofs());
-    ghosts.add_indices(needed.begin(), needed.end());
-    ghosts.subtract_set(owned);
-    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, communicator());
-    n_nodes     = n_owned_nodes + partitioner->n_ghost_indices() / 3;
+    IndexSet owned(3 * n_global_nodes), ghosts(3 * n_global_nodes);
+    owned.add_range(3 * share.first_node, 3 * (share.first_node + share.n_owned_nodes));
+    for (const auto node : share.ghost_nodes)
+      ghosts.add_range(3 * node, 3 * node + 3);
+    partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned, ghosts, communicator);
 
     reference.reinit(partitioner);
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      for (unsigned int d = 0; d < 3; ++d)
+        reference.local_element(3 * node + d) = share.nodes[node][d];
     body_of_node.resize(n_nodes);
-    for (const auto &cell : relevant)
-      {
-        const DoFHandler<3>::active_cell_iterator active(cell);
-        active->get_dof_indices(dofs);
-        RelevantCell entry{{},
-                           cell->material_id(),
-                           cell->is_locally_owned(),
-                           ids[active->active_cell_index()],
-                           cell};
-        for (unsigned int v = 0; v < 8; ++v)
-          {
-            const unsigned int node = partitioner->global_to_local(dofs[3 * v]) / 3;
-            entry.nodes[v]          = node;
-            body_of_node[node]      = entry.body;
-            for (unsigned int d = 0; d < 3; ++d)
-              reference.local_element(3 * node + d) = cell->vertex(v)[d];
-          }
-        cells.push_back(entry);
-      }
-    std::stable_sort(cells.begin(), cells.end(), [](const RelevantCell &a, const RelevantCell &b) {
-      return a.body < b.body;
-    });
-  }
-
-
-  void
-  Discretization::collect_faces()
-  {
     for (const auto &cell : cells)
-      for (unsigned int f = 0; f < 6; ++f)
-        if (cell.cell->face(f)->at_boundary())
-          {
-            const auto corners = outward_corners(f);
-            BoundaryFace face{{},
-                              cell.cell->face(f)->boundary_id(),
-                              6 * cell.id + f,
-                              cell.body,
-                              cell.owned,
-                              cell.cell->measure() / cell.cell->face(f)->measure()};
-            for (unsigned int v = 0; v < 4; ++v)
-              face.nodes[v] = cell.nodes[corners[v]];
-            faces.push_back(face);
-          }
-    std::sort(faces.begin(), faces.end(), [](const BoundaryFace &a, const BoundaryFace &b) {
-      return a.id < b.id;
-    });
+      for (const unsigned int node : cell.nodes)
+        body_of_node[node] = cell.body;
   }
 
 
@@ -397,8 +172,8 @@ namespace akmon
     if (part == "all")
       {
         std::set<types::boundary_id> every;
-        for (const auto &of_body : parts)
-          every.insert(of_body.at("all").begin(), of_body.at("all").end());
+        for (const auto &outline : outlines)
+          every.insert(outline.parts.at("all").begin(), outline.parts.at("all").end());
         return every;
       }
     const auto colon       = part.find(':');
@@ -408,11 +183,12 @@ namespace akmon
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (bodies[b].is_called(body))
         {
-          const auto found = parts[b].find(name);
-          if (found == parts[b].end())
+          const auto &parts = outlines[b].parts;
+          const auto found  = parts.find(name);
+          if (found == parts.end())
             {
               std::string known;
-              for (const auto &entry : parts[b])
+              for (const auto &entry : parts)
                 known += (known.empty() ? "" : ", ") + entry.first;
               throw InputError(section, key, part, "body '" + body + "' has the parts " + known);
             }

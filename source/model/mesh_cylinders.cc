@@ -3,9 +3,10 @@
 #include <akmon/model/o_grid.h>
 #include <akmon/parameters.h>
 
+#include <deal.II/base/geometry_info.h>
 #include <deal.II/base/numbers.h>
 #include <deal.II/base/patterns.h>
-#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/tria.h>
 
 #include <cmath>
 
@@ -31,6 +32,59 @@ namespace akmon
         z *= length / sum;
       coordinates.back() = length;
       return coordinates;
+    }
+
+
+    // Whether a face of a plane mesh lies where a coordinate is zero.
+    bool
+    on_axis(const dealii::Triangulation<2>::face_iterator &face, const unsigned int direction)
+    {
+      return face->vertex(0)[direction] == 0 && face->vertex(1)[direction] == 0;
+    }
+
+
+    // Faces of the ends have ids of their own, others those of the plane mesh. deal.II's
+    // extrude_triangulation() needs a kilobyte per cell besides the mesh.
+    BodyMesh
+    extrude(const dealii::Triangulation<2> &plane,
+            const std::vector<double> &coordinates,
+            const dealii::types::boundary_id bottom,
+            const dealii::types::boundary_id top,
+            const std::vector<std::string> &names)
+    {
+      const unsigned int n_layers = coordinates.size() - 1, n = plane.n_vertices();
+      BodyMesh mesh;
+      mesh.vertices.reserve(std::size_t(n) * coordinates.size());
+      for (const double z : coordinates)
+        for (const auto &vertex : plane.get_vertices())
+          mesh.vertices.emplace_back(vertex[0], vertex[1], z);
+
+      mesh.cells.reserve(std::size_t(plane.n_active_cells()) * n_layers);
+      for (const auto &cell : plane.active_cell_iterators())
+        for (unsigned int layer = 0; layer < n_layers; ++layer)
+          {
+            mesh.cells.emplace_back();
+            auto &hexahedron       = mesh.cells.back();
+            hexahedron.material_id = 0;
+            hexahedron.manifold_id = dealii::numbers::flat_manifold_id;
+            for (unsigned int v = 0; v < 8; ++v)
+              hexahedron.vertices[v] = cell->vertex_index(v % 4) + (layer + v / 4) * n;
+            for (unsigned int f = 0; f < 6; ++f)
+              if (f == 4 ? layer == 0 :
+                  f == 5 ? layer + 1 == n_layers :
+                           cell->face(f)->at_boundary())
+                {
+                  dealii::CellData<2> face;
+                  face.boundary_id = f == 4 ? bottom : f == 5 ? top : cell->face(f)->boundary_id();
+                  for (unsigned int v = 0; v < 4; ++v)
+                    face.vertices[v] = hexahedron.vertices
+                                         [dealii::GeometryInfo<3>::face_to_cell_vertices(f, v)];
+                  mesh.faces.boundary_quads.push_back(face);
+                }
+          }
+      for (unsigned int id = 0; id < names.size(); ++id)
+        mesh.parts[names[id]].insert(id);
+      return mesh;
     }
 
 
@@ -92,25 +146,16 @@ namespace akmon
     OGrid<2>(radius, cells_across, cells_radial).create(disc, [&](const dealii::Point<2> &x) {
       return is_in(sector, x);
     });
-    dealii::Triangulation<3> triangulation;
-    dealii::GridGenerator::extrude_triangulation(disc,
-                                                 slices(length, cells_axial, axial_grading),
-                                                 triangulation);
-
     std::vector<std::string> names = {"side", "bottom", "top"};
     if (sector != Sector::full)
       names.push_back("x-");
     if (sector == Sector::quarter)
       names.push_back("y-");
-    // Coordinates in these planes are exact (see OGrid and slices).
-    set_boundary_ids(triangulation, [&](const MeshFace &face) {
-      return on_plane(face, 2, 0)      ? 1 :
-             on_plane(face, 2, length) ? 2 :
-             on_plane(face, 0, 0)      ? 3 :
-             on_plane(face, 1, 0)      ? 4 :
-                                         0;
-    });
-    BodyMesh mesh = describe_mesh(triangulation, names);
+    // Coordinates in the planes of symmetry are exact (see OGrid).
+    for (const auto &face : disc.active_face_iterators())
+      if (face->at_boundary())
+        face->set_boundary_id(on_axis(face, 0) ? 3 : on_axis(face, 1) ? 4 : 0);
+    BodyMesh mesh = extrude(disc, slices(length, cells_axial, axial_grading), 1, 2, names);
     mesh.curved.emplace(0, around_z_axis);
     return mesh;
   }
@@ -180,19 +225,15 @@ namespace akmon
         }
     dealii::Triangulation<2> ring;
     ring.create_triangulation(vertices, cells, dealii::SubCellData());
-    dealii::Triangulation<3> triangulation;
-    dealii::GridGenerator::extrude_triangulation(ring,
-                                                 slices(length, cells_axial, 1),
-                                                 triangulation);
-
     const double middle = 0.5 * (inner_radius + outer_radius);
-    set_boundary_ids(triangulation, [&](const MeshFace &face) {
-      return on_plane(face, 2, 0)                                        ? 2 :
-             on_plane(face, 2, length)                                   ? 3 :
-             std::hypot(face->vertex(0)[0], face->vertex(0)[1]) < middle ? 0 :
-                                                                           1;
-    });
-    BodyMesh mesh = describe_mesh(triangulation, {"inner", "outer", "bottom", "top"});
+    for (const auto &face : ring.active_face_iterators())
+      if (face->at_boundary())
+        face->set_boundary_id(face->vertex(0).norm() < middle ? 0 : 1);
+    BodyMesh mesh = extrude(ring,
+                            slices(length, cells_axial, 1),
+                            2,
+                            3,
+                            {"inner", "outer", "bottom", "top"});
     mesh.curved.emplace(0, around_z_axis);
     mesh.curved.emplace(1, around_z_axis);
     return mesh;

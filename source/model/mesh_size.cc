@@ -8,13 +8,11 @@
 namespace akmon
 {
   void
-  refuse_too_large_meshes(const std::vector<Body> &bodies, const MPI_Comm comm)
+  refuse_too_large_meshes(const std::vector<Body> &bodies)
   {
-    // Every rank has all coarse cells and its part of the refined ones; all ranks may be on this
-    // machine.
+    // All ranks may be on this machine.
     constexpr double bytes_per_cell = 1000.;
-    const double memory  = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
-    const double n_ranks = dealii::Utilities::MPI::n_mpi_processes(comm);
+    const double memory = double(sysconf(_SC_PHYS_PAGES)) * double(sysconf(_SC_PAGE_SIZE));
     double needed = 0., most = 0.;
     const Body *largest = nullptr;
     for (const auto &body : bodies)
@@ -22,7 +20,7 @@ namespace akmon
         const double coarse = std::visit([](const auto &shape) { return shape.n_cells(); },
                                          body.mesh.shape);
         const double cells  = coarse * std::pow(8., body.refinement);
-        needed += bytes_per_cell * (n_ranks * coarse + cells);
+        needed += bytes_per_cell * cells;
         if (cells > most)
           {
             most    = cells;

@@ -1,9 +1,4 @@
-#include <akmon/exit_status.h>
-#include <akmon/output/directory.h>
 #include <akmon/output/fields.h>
-
-#include <deal.II/fe/mapping_q1.h>
-#include <deal.II/fe/mapping_q1_eulerian.h>
 
 #include <cmath>
 #include <cstdio>
@@ -15,36 +10,6 @@ namespace akmon
 
   namespace
   {
-    // The mean Cauchy stress of each cell as a tensor field.
-    class StressField : public DataPostprocessorTensor<3>
-    {
-    public:
-      explicit StressField(const std::vector<Symmetric3<double>> &stresses)
-        : DataPostprocessorTensor<3>("cauchy_stress", update_values)
-        , stresses(stresses)
-      {
-      }
-
-      void
-      evaluate_vector_field(const DataPostprocessorInputs::Vector<3> &inputs,
-                            std::vector<Vector<double>> &computed) const override
-      {
-        const auto &s = stresses[inputs.get_cell<3>()->active_cell_index()];
-        for (auto &values : computed)
-          {
-            const double full[3][3] = {{s[0], s[3], s[4]}, {s[3], s[1], s[5]}, {s[4], s[5], s[2]}};
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int j = 0; j < 3; ++j)
-                values[Tensor<2, 3>::component_to_unrolled_index(TableIndices<2>(i, j))] = full[i]
-                                                                                               [j];
-          }
-      }
-
-    private:
-      const std::vector<Symmetric3<double>> &stresses;
-    };
-
-
     std::string
     file_name(const std::size_t number)
     {
@@ -54,9 +19,32 @@ namespace akmon
     }
 
 
-    const std::vector<DataComponentInterpretation::DataComponentInterpretation> as_vector(
-      3,
-      DataComponentInterpretation::component_is_part_of_vector);
+    // In the order of Fields::make_patch().
+    PatchValues
+    patch_values()
+    {
+      PatchValues values;
+      const auto add = [&](const std::string &name, const unsigned int n_components) {
+        const unsigned int first = values.names.size();
+        values.names.insert(values.names.end(), n_components, name);
+        if (n_components > 1)
+          values.groups.emplace_back(first,
+                                     first + n_components - 1,
+                                     name,
+                                     n_components == 3 ?
+                                       DataComponentInterpretation::component_is_part_of_vector :
+                                       DataComponentInterpretation::component_is_part_of_tensor);
+      };
+      for (const char *const name :
+           {"displacement", "velocity", "contact_traction", "contact_friction"})
+        add(name, 3);
+      for (const char *const name : {"contact_pressure", "gap", "contact_status"})
+        add(name, 1);
+      add("cauchy_stress", 9);
+      for (const char *const name : {"von_mises", "plastic_strain", "body", "rank", "eroded"})
+        add(name, 1);
+      return values;
+    }
   } // namespace
 
 
@@ -94,99 +82,108 @@ namespace akmon
   }
 
 
+  Fields::NodalFields::NodalFields(const Discretization &discretization)
+    : velocity(discretization.partitioner)
+    , scalars(discretization.partitioner)
+    , traction(discretization.partitioner)
+    , friction(discretization.partitioner)
+  {
+  }
+
+
   void
   Fields::write(const NodalState &state)
   {
-    const auto &triangulation = discretization.triangulation;
-    const auto &dof_handler   = discretization.dof_handler;
-    NodalVector displacement  = state.x;
-    displacement -= discretization.reference;
-    NodalVector velocity = nodal_velocity(), scalars = discretization.make_vector(),
-                traction = discretization.make_vector(), friction = discretization.make_vector();
-    fill_contact_fields(state, scalars, traction, friction);
-    for (NodalVector *const vector : {&displacement, &velocity, &scalars, &traction, &friction})
+    // What a rank has of patches, a kilobyte each, at a time.
+    constexpr std::size_t cells_of_piece = 16384;
+
+    NodalFields fields(discretization);
+    fill_velocity(fields);
+    fill_contact_fields(state, fields);
+    for (FieldVector *const vector :
+         {&fields.velocity, &fields.scalars, &fields.traction, &fields.friction})
       vector->update_ghost_values();
 
-    const unsigned int n = triangulation.n_active_cells();
-    std::vector<Symmetric3<double>> stresses(n, {{0., 0., 0., 0., 0., 0.}});
-    Vector<float> von_mises(n), plastic_strain(n), body(n), rank(n), eroded(n);
+    DataOutBase::VtkFlags flags;
+    flags.time               = state.time;
+    flags.cycle              = state.step;
+    flags.compression_level  = DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
+    const std::string name   = file_name(series.size());
+    const PatchValues values = patch_values();
+    VtuFile file(directory + "/" + name, values, flags, discretization.communicator());
+
+    std::size_t n_pieces = Utilities::MPI::max((discretization.n_owned_cells + cells_of_piece - 1) /
+                                                 cells_of_piece,
+                                               discretization.communicator());
+    std::vector<DataOutBase::Patch<3, 3>> patches;
+    const auto add_piece = [&]() {
+      file.add(patches);
+      patches.clear();
+      --n_pieces;
+    };
     for (const auto &batches : internal_forces.batches())
       for (std::size_t c = 0; c < batches.n_cells; ++c)
-        {
-          const auto &relevant = discretization.cells[batches.first_cell + c];
-          const auto i = DoFHandler<3>::active_cell_iterator(relevant.cell)->active_cell_index();
-          const auto average = average_over_cell(batches, c);
-          stresses[i]        = average.stress;
-          von_mises[i]       = std::sqrt(equivalent_stress_squared(average.stress));
-          plastic_strain[i]  = average.plastic_strain;
-          body[i]            = relevant.body;
-          eroded[i]          = batches.is_eroded(c) ? 1. : 0.;
-          rank[i]            = relevant.cell->subdomain_id();
-        }
-
-    const StressField stress_field(stresses);
-    DataOut<3> data_out;
-    DataOutBase::VtkFlags flags;
-    flags.time              = state.time;
-    flags.cycle             = state.step;
-    flags.compression_level = DataOutBase::VtkFlags::ZlibCompressionLevel::best_speed;
-    data_out.set_flags(flags);
-    data_out.attach_dof_handler(dof_handler);
-    data_out.add_data_vector(dof_handler,
-                             displacement,
-                             std::vector<std::string>(3, "displacement"),
-                             as_vector);
-    data_out.add_data_vector(dof_handler,
-                             velocity,
-                             std::vector<std::string>(3, "velocity"),
-                             as_vector);
-    data_out.add_data_vector(dof_handler,
-                             traction,
-                             std::vector<std::string>(3, "contact_traction"),
-                             as_vector);
-    data_out.add_data_vector(dof_handler,
-                             friction,
-                             std::vector<std::string>(3, "contact_friction"),
-                             as_vector);
-    data_out.add_data_vector(dof_handler,
-                             scalars,
-                             std::vector<std::string>{"contact_pressure", "gap", "contact_status"});
-    data_out.add_data_vector(displacement, stress_field);
-    data_out.add_data_vector(von_mises, "von_mises", DataOut<3>::type_cell_data);
-    data_out.add_data_vector(plastic_strain, "plastic_strain", DataOut<3>::type_cell_data);
-    data_out.add_data_vector(body, "body", DataOut<3>::type_cell_data);
-    data_out.add_data_vector(rank, "rank", DataOut<3>::type_cell_data);
-    data_out.add_data_vector(eroded, "eroded", DataOut<3>::type_cell_data);
-    if (deformed)
-      data_out.build_patches(MappingQ1Eulerian<3, NodalVector>(dof_handler, displacement), 1);
-    else
-      data_out.build_patches(MappingQ1<3>(), 1);
-
-    const std::string name = file_name(series.size());
-    write_file(data_out, name);
+        if (discretization.cells[batches.first_cell + c].owned)
+          {
+            patches.push_back(make_patch(state, fields, batches, c));
+            patches.back().patch_index = patches.size() - 1;
+            if (patches.size() == cells_of_piece)
+              add_piece();
+          }
+    while (n_pieces > 0) // others may have more
+      add_piece();
+    file.finish();
     series.add(state.time, name);
   }
 
 
-  // The operating system knows why a file cannot be created; MPI tells only that it could not
-  // write.
-  void
-  Fields::write_file(const DataOut<3> &data_out, const std::string &name) const
+  // Values in the order of patch_values(), at the cell's corners.
+  DataOutBase::Patch<3, 3>
+  Fields::make_patch(const NodalState &state,
+                     const NodalFields &fields,
+                     const CellBatches &batches,
+                     const std::size_t cell_of_body) const
   {
-    const std::string path = directory + "/" + name;
-    run_on_root(discretization.communicator(), [&]() { replace_file(path, ""); });
-    std::string failure;
-    try
+    const auto &cell   = discretization.cells[batches.first_cell + cell_of_body];
+    const auto average = average_over_cell(batches, cell_of_body);
+    const auto &s      = average.stress;
+    const std::array<double, 14> of_cell{
+      {s[0],
+       s[3],
+       s[4],
+       s[3],
+       s[1],
+       s[5],
+       s[4],
+       s[5],
+       s[2],
+       std::sqrt(equivalent_stress_squared(s)),
+       average.plastic_strain,
+       double(cell.body),
+       double(Utilities::MPI::this_mpi_process(discretization.communicator())),
+       batches.is_eroded(cell_of_body) ? 1. : 0.}};
+    const std::array<const FieldVector *, 4> of_nodes{
+      {&fields.velocity, &fields.traction, &fields.friction, &fields.scalars}};
+
+    DataOutBase::Patch<3, 3> patch;
+    patch.reference_cell = ReferenceCells::Hexahedron;
+    patch.n_subdivisions = 1;
+    patch.data.reinit(3 + 3 * of_nodes.size() + of_cell.size(), 8);
+    for (unsigned int v = 0; v < 8; ++v)
       {
-        data_out.write_vtu_in_parallel(path, discretization.communicator());
+        const unsigned int node = cell.nodes[v];
+        const auto X = at_node(discretization.reference, node), x = at_node(state.x, node);
+        patch.vertices[v] = Point<3>(deformed ? x : X);
+        unsigned int row  = 0;
+        for (unsigned int d = 0; d < 3; ++d)
+          patch.data(row++, v) = x[d] - X[d];
+        for (const auto *const vector : of_nodes)
+          for (unsigned int d = 0; d < 3; ++d)
+            patch.data(row++, v) = vector->local_element(3 * node + d);
+        for (const double value : of_cell)
+          patch.data(row++, v) = value;
       }
-    catch (const ExceptionBase &)
-      {
-        failure = "cannot write '" + path + "'; is the disk full?";
-      }
-    for (const auto &of_rank : Utilities::MPI::all_gather(discretization.communicator(), failure))
-      if (!of_rank.empty())
-        throw RunError(ExitStatus::output_failed, of_rank);
+    return patch;
   }
 
 
@@ -207,27 +204,22 @@ namespace akmon
   }
 
 
-  NodalVector
-  Fields::nodal_velocity() const
+  void
+  Fields::fill_velocity(NodalFields &fields) const
   {
-    NodalVector velocity = discretization.make_vector();
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
       {
         const auto v = integrator.velocity(node);
         for (unsigned int d = 0; d < 3; ++d)
-          velocity.local_element(3 * node + d) = v[d];
+          fields.velocity.local_element(3 * node + d) = v[d];
       }
-    return velocity;
   }
 
 
   // Forces of all interfaces at an owned node over its share of the area that faces the normal
   // force.
   void
-  Fields::fill_contact_fields(const NodalState &state,
-                              NodalVector &scalars,
-                              NodalVector &traction,
-                              NodalVector &friction) const
+  Fields::fill_contact_fields(const NodalState &state, NodalFields &fields) const
   {
     const auto &areas  = contact.nodal_areas();
     const auto &forces = contact.nodal_forces();
@@ -243,26 +235,27 @@ namespace akmon
             sticks = sticks || first->sticks;
           }
         const double size = normal.norm(), pressure = areas.pressure(state.x, node, normal);
-        scalars.local_element(3 * node)     = pressure;
-        scalars.local_element(3 * node + 2) = sticks ? 2. : 1.;
+        fields.scalars.local_element(3 * node)     = pressure;
+        fields.scalars.local_element(3 * node + 2) = sticks ? 2. : 1.;
         for (unsigned int d = 0; pressure > 0. && d < 3; ++d)
           {
-            traction.local_element(3 * node + d) = (normal[d] + tangential[d]) * (pressure / size);
-            friction.local_element(3 * node + d) = tangential[d] * (pressure / size);
+            fields.traction.local_element(3 * node + d) = (normal[d] + tangential[d]) *
+                                                          (pressure / size);
+            fields.friction.local_element(3 * node + d) = tangential[d] * (pressure / size);
           }
       }
 
     for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
-      scalars.local_element(3 * node + 1) = std::numeric_limits<double>::quiet_NaN();
+      fields.scalars.local_element(3 * node + 1) = std::numeric_limits<double>::quiet_NaN();
     for (const auto &pair : contact.get_pairs())
       {
         if (pair.slave == numbers::invalid_unsigned_int) // of rigid bodies
           continue;
-        double &gap = scalars.local_element(3 * pair.slave + 1);
+        float &gap = fields.scalars.local_element(3 * pair.slave + 1);
         if (!pair.of_edges && !(gap < pair.gap))
           gap = pair.gap;
         if (pair.normal_force > 0.) // a slave's own pair counts before those it is a master of
-          scalars.local_element(3 * pair.slave + 2) = pair.sticks ? 2. : 1.;
+          fields.scalars.local_element(3 * pair.slave + 2) = pair.sticks ? 2. : 1.;
       }
   }
 } // namespace akmon

@@ -1,3 +1,4 @@
+#include <akmon/model/hexahedron_cell.h>
 #include <akmon/output/fields.h>
 #include <akmon/output/history.h>
 #include <akmon/output/probes.h>
@@ -44,6 +45,7 @@ namespace akmon
         Place place{probe.name, winner == best, best_node, {}};
 
         double diameter = 0.;
+        HexahedronCell hexahedron;
         for (std::size_t c = 0; c < discretization.cells.size(); ++c)
           {
             const auto &cell = discretization.cells[c];
@@ -52,7 +54,8 @@ namespace akmon
               {
                 place.cells.emplace_back(cell.body,
                                          c - internal_forces.batches()[cell.body].first_cell);
-                diameter = std::max(diameter, cell.cell->diameter());
+                diameter = std::max(diameter,
+                                    hexahedron.at(discretization.corners_of(cell))->diameter());
               }
           }
         diameter = Utilities::MPI::max(diameter, discretization.communicator());

@@ -46,7 +46,7 @@ namespace akmon::benchmark
       simulation.run();
       return {processor_seconds() - start,
               simulation.current_state().step,
-              simulation.model().triangulation.n_locally_owned_active_cells()};
+              simulation.model().n_owned_cells};
     }
 
 

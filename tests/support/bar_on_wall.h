@@ -78,7 +78,7 @@ namespace akmon::test
     bar.kinetic_left   = 1. / (0.5 * mass * speed * speed);
     bar.momentum_error = 1. / (mass * speed);
 
-    bar.n_cells        = model.triangulation.n_global_active_cells();
+    bar.n_cells        = model.n_global_cells;
     bar.n_steps        = state.step;
     bar.length         = highest - lowest;
     bar.lowest         = lowest / initial_length;

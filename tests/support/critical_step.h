@@ -2,6 +2,7 @@
 
 #include <akmon/time/critical_step.h>
 
+#include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/lapack_full_matrix.h>
 
 #include <algorithm>

@@ -2,16 +2,13 @@
 
 #include <akmon/material/material.h>
 #include <akmon/model/body.h>
+#include <akmon/model/mesh_share.h>
 #include <akmon/model/partition.h>
 
 #include <deal.II/base/partitioner.h>
-#include <deal.II/distributed/tria.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/fe/fe_system.h>
 #include <deal.II/lac/la_parallel_vector.h>
 
 #include <array>
-#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -33,32 +30,10 @@ namespace akmon
   }
 
 
-  /// A cell whose forces this rank computes: its own, and ghosts that touch an owned node.
-  struct RelevantCell
-  {
-    std::array<unsigned int, 8> nodes; ///< local numbers, deal.II's vertex order
-    unsigned int body;
-    bool owned;
-    dealii::types::global_cell_index id; ///< in space-filling-curve order, any rank count
-    typename dealii::DoFHandler<3>::cell_iterator cell;
-  };
-
-
-  /// A boundary face of a relevant cell.
-  struct BoundaryFace
-  {
-    std::array<unsigned int, 4> nodes; ///< local numbers, counter-clockwise seen from outside
-    dealii::types::boundary_id boundary;
-    dealii::types::global_cell_index id; ///< 6 * cell id + face number, the same for any rank count
-    unsigned int body;
-    bool owned;
-    double depth; ///< initial thickness of the cell behind the face, volume over area; length
-  };
-
-
   /**
-   * All bodies as disconnected parts of one distributed triangulation with Q1 hexes, and what the
-   * time loop needs of it: node numbering, lumped masses, relevant cells, boundary faces.
+   * All bodies as disconnected parts of one mesh of Q1 hexes that is distributed among the ranks:
+   * what the time loop needs of deal.II's triangulation and degrees of freedom, which are gone then
+   * (see make_global_mesh()). Node numbering, lumped masses, relevant cells, boundary faces.
    *
    * Nodes are numbered along the space-filling curve of the cells, so that global numbers do not
    * depend on the number of ranks. A rank computes every cell that touches one of its nodes, in
@@ -78,7 +53,7 @@ namespace akmon
     MPI_Comm
     communicator() const
     {
-      return triangulation.get_communicator();
+      return partitioner->get_mpi_communicator();
     }
 
     const std::vector<Body> &
@@ -102,11 +77,28 @@ namespace akmon
     std::vector<BoundaryFace>
     faces_on(const std::set<dealii::types::boundary_id> &ids) const;
 
+    /// All relevant faces of the boundary, in global order.
+    const std::vector<BoundaryFace> &
+    boundary_faces() const
+    {
+      return faces;
+    }
+
+    /// Initial places of a cell's corners, deal.II's vertex order; length.
+    std::array<dealii::Point<3>, 8>
+    corners_of(const RelevantCell &cell) const
+    {
+      std::array<dealii::Point<3>, 8> corners;
+      for (unsigned int v = 0; v < 8; ++v)
+        corners[v] = dealii::Point<3>(at_node(reference, cell.nodes[v]));
+      return corners;
+    }
+
     /// Volume centroid of a body's coarse mesh in its initial place; length.
     const dealii::Point<3> &
     centre_of(const unsigned int body) const
     {
-      return centres[body];
+      return outlines[body].centre;
     }
 
     /// Number of the body with this name; throws InputError naming section and key.
@@ -138,8 +130,10 @@ namespace akmon
       return mass_factors.empty() ? 1. : mass_factors[cell];
     }
 
-    unsigned int n_owned_nodes = 0;
-    unsigned int n_nodes       = 0; ///< owned and ghost
+    dealii::types::global_cell_index n_global_cells = 0, n_owned_cells = 0;
+    dealii::types::global_dof_index n_global_nodes = 0;
+    unsigned int n_owned_nodes                     = 0;
+    unsigned int n_nodes                           = 0; ///< owned and ghost
 
     std::shared_ptr<const dealii::Utilities::MPI::Partitioner> partitioner;
 
@@ -149,31 +143,16 @@ namespace akmon
 
     std::vector<RelevantCell> cells; ///< by body, then in global order
 
-    dealii::parallel::distributed::Triangulation<3> triangulation;
-    dealii::FESystem<3> fe;
-    dealii::DoFHandler<3> dof_handler;
-
   private:
     void
-    build_triangulation();
-    void
-    share_out(const ExtraWork &extra_work);
-    dealii::types::global_cell_index
-    first_owned_cell() const;
-    void
-    number_nodes();
-    void
-    collect_cells();
-    void
-    collect_faces();
+    take(MeshShare share, const MPI_Comm communicator);
     void
     lump_masses();
 
     std::vector<Body> bodies;
     std::vector<Material> materials;
     std::vector<unsigned int> body_material;
-    std::vector<std::map<std::string, std::set<dealii::types::boundary_id>>> parts; ///< per body
-    std::vector<dealii::Point<3>> centres;
+    std::vector<BodyOutline> outlines;
     std::vector<BoundaryFace> faces;
     std::vector<double> mass_factors; ///< of relevant cells; empty: all one
   };

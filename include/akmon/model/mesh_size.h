@@ -2,8 +2,6 @@
 
 #include <akmon/model/body.h>
 
-#include <deal.II/base/mpi.h>
-
 #include <vector>
 
 namespace akmon
@@ -13,5 +11,5 @@ namespace akmon
    * Throws InputError naming the body with the most cells.
    */
   void
-  refuse_too_large_meshes(const std::vector<Body> &bodies, const MPI_Comm comm);
+  refuse_too_large_meshes(const std::vector<Body> &bodies);
 } // namespace akmon

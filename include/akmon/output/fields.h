@@ -4,9 +4,8 @@
 #include <akmon/forces/internal_forces.h>
 #include <akmon/model/nodal_state.h>
 #include <akmon/output/pvd.h>
+#include <akmon/output/vtu_file.h>
 #include <akmon/time/fidcd.h>
-
-#include <deal.II/numerics/data_out.h>
 
 #include <string>
 #include <vector>
@@ -43,22 +42,31 @@ namespace akmon
     restore(const CheckpointReader &checkpoint);
 
   private:
+    /// Nodal values as they go into a file, in single precision, ghosted.
+    using FieldVector = dealii::LinearAlgebra::distributed::Vector<float>;
+
+    /// What cannot be told at a node from its own state alone.
+    struct NodalFields
+    {
+      explicit NodalFields(const Discretization &discretization);
+
+      FieldVector velocity; ///< length/time
+      FieldVector scalars;  ///< contact pressure (force/area), gap (length, of slaves; NaN without
+                            ///< partner), status (0 open, 1 slip, 2 stick)
+      FieldVector traction; ///< contact's normal and friction force per area
+      FieldVector friction; ///< friction force per area
+    };
+
     void
-    write_file(const dealii::DataOut<3> &data_out, const std::string &name) const;
-    NodalVector
-    nodal_velocity() const;
-    /**
-     * What contact does at owned nodes, of both sides.
-     * @param scalars   contact pressure (force/area), gap (length, of slaves; NaN without partner),
-     *                  status (0 open, 1 slip, 2 stick)
-     * @param traction  normal and friction force per area
-     * @param friction  friction force per area
-     */
+    fill_velocity(NodalFields &fields) const;
+    /// What contact does at owned nodes, of both sides.
     void
-    fill_contact_fields(const NodalState &state,
-                        NodalVector &scalars,
-                        NodalVector &traction,
-                        NodalVector &friction) const;
+    fill_contact_fields(const NodalState &state, NodalFields &fields) const;
+    dealii::DataOutBase::Patch<3, 3>
+    make_patch(const NodalState &state,
+               const NodalFields &fields,
+               const CellBatches &batches,
+               const std::size_t cell_of_body) const;
 
     const std::string directory;
     const Discretization &discretization;

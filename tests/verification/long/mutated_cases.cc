@@ -128,8 +128,7 @@ namespace
     try
       {
         akmon::Simulation simulation(akmon::Case::read(file, overrides), MPI_COMM_SELF, true);
-        if (override.rfind("Time/", 0) != 0 &&
-            simulation.model().triangulation.n_global_active_cells() <= largest_to_run)
+        if (override.rfind("Time/", 0) != 0 && simulation.model().n_global_cells <= largest_to_run)
           simulation.run();
         return Outcome::runs;
       }

@@ -1,3 +1,5 @@
+#include <akmon/model/hexahedron_cell.h>
+
 #include <boost/property_tree/json_parser.hpp>
 #include <gtest/gtest.h>
 
@@ -69,8 +71,9 @@ namespace
     for (unsigned int node = 0; node < model.n_owned_nodes; ++node)
       mass += model.mass[node];
     double volume = 0.;
+    HexahedronCell hexahedron;
     for (const auto &cell : model.cells)
-      volume += cell.cell->measure();
+      volume += hexahedron.at(model.corners_of(cell))->measure();
     const double added = summary.get<double>("added_mass_rel");
     std::cout << "added mass " << added << std::endl;
     EXPECT_LE(simulation.current_state().step, 3u);
