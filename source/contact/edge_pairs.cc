@@ -12,8 +12,8 @@ namespace akmon
   namespace
   {
     constexpr double corner       = 0.1;  // of an edge: so close to a corner nodes meet faces
-    constexpr double least_sine   = 0.07; // between edges, 4 degrees: below, nodes and edges meet
-    constexpr double first_sine   = 0.09; // the same of new pairs, 5 degrees
+    constexpr double least_sine   = 0.26; // between edges, 15 degrees: below, nodes and edges meet
+    constexpr double first_sine   = 0.34; // the same of new pairs, 20 degrees
     constexpr double first_inside = 0.02; // sine: how far new pairs' normals are off those of faces
     constexpr double barely_inside = 1e-6; // of the cell size: new pairs that overlap, for rounding
     constexpr double deepest_part  = 0.5;  // of the cell behind: old pairs that overlap
