@@ -102,7 +102,7 @@ namespace akmon
   void
   Contact::solve_coupled(const NodalState &state)
   {
-    constexpr unsigned int most_rounds = 8;
+    constexpr unsigned int most_rounds = 16;
 
     coupled.solve(dx_free);
     for (unsigned int round = 1; round < most_rounds && coupled.converged(); ++round)

@@ -164,7 +164,8 @@ end
           const auto velocity  = velocities_of_bodies(*run.simulation);
           const double rebound = (velocity[1][2] - velocity[0][2]) / (2. * speed);
           report(name + ": rebound", rebound);
-          EXPECT_GT(rebound, shift.norm() > 0. ? 0. : 0.8) << name;
+          if (angle >= 20.) // below, only the nodes are kept apart
+            EXPECT_GT(rebound, shift.norm() > 0. ? 0. : 0.8) << name;
         }
   }
 
