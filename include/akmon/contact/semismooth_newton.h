@@ -50,7 +50,7 @@ namespace akmon
       double norm;                  ///< an upper bound of the norm of A
       double compliance;            ///< c to begin with, relative to the diagonal of A: one
       double tolerance;             ///< of the residual
-      double sufficient;            ///< the same where faces do not settle
+      double sufficient;            ///< the same where it takes too long
       unsigned int limit;           ///< of applications of A
       bool start_is_reference;      ///< t_0 is the start, which solves almost the same problem
     };
@@ -77,7 +77,6 @@ namespace akmon
       problem        = &new_problem;
       n_applications = 0;
       n_relaxations  = 25;
-      tolerance      = problem->tolerance;
       if (!(problem->norm > 0.)) // nothing can move
         return {0, 0., true};
       constexpr double stiffer = 1e3; // where faces do not settle
@@ -95,7 +94,6 @@ namespace akmon
       double residual = solve_with(problem->compliance, 4, false, t);
       if (residual > problem->sufficient && n_applications < problem->limit)
         {
-          tolerance = problem->sufficient;
           reference = t;
           residual  = solve_with(stiffer * problem->compliance, 20, true, t);
         }
@@ -118,13 +116,17 @@ namespace akmon
       compliance = new_compliance;
       step       = 1.9 / (problem->norm + compliance);
       compute_gradient(t);
-      double residual = 0.;
+      double residual = 0., last_error = std::numeric_limits<double>::max();
       for (unsigned int k = 0; k <= most_references; ++k)
         {
-          const double enough = std::max(0.5 * tolerance, part * error_of_compliance(t));
+          const double enough = std::max(0.5 * problem->tolerance, part * error_of_compliance(t));
           residual            = solve_for_reference(enough, thoroughly, t);
-          if (residual > enough || error_of_compliance(t) <= tolerance)
+          const double error  = error_of_compliance(t);
+          if (residual > enough || error <= problem->tolerance)
             break;
+          if (error <= problem->sufficient && error > 0.5 * last_error)
+            return std::max(residual, error); // the rest would take long
+          last_error = error;
           refer_to(t);
         }
       return residual;
@@ -301,7 +303,7 @@ namespace akmon
           if ((t[i] - before).norm() > rounding * before.norm())
             lost = std::numeric_limits<double>::max();
         }
-      if (dealii::Utilities::MPI::max(lost, communicator) > 0.05 * tolerance)
+      if (dealii::Utilities::MPI::max(lost, communicator) > 0.05 * problem->tolerance)
         compute_gradient(t);
       faces_changed = dealii::Utilities::MPI::max(int(changed), communicator) > 0;
     }
@@ -324,7 +326,7 @@ namespace akmon
         }
       const double norm = std::sqrt(reproducible_sums(squares, communicator)[0]);
       weighted          = dealii::Utilities::MPI::max(weighted, communicator);
-      const double goal = weighted > 0. ? 0.15 * tolerance / weighted : 1.;
+      const double goal = weighted > 0. ? 0.15 * problem->tolerance / weighted : 1.;
       precondition.reinit(faces, compliance);
       gmres.solve([&](Vector &p, Vector &of_p, Vector &y) { apply_on_faces(p, of_p, y); },
                   [&](const Vector &v, Vector &z) {
@@ -373,7 +375,6 @@ namespace akmon
     unsigned int n_relaxations  = 0;  ///< in the next relaxation
     double compliance           = 0.; ///< c
     double step                 = 0.;
-    double tolerance            = 0.;   ///< of the residual, at present
     bool faces_changed          = true; ///< by the last choice of them
     double drift                = 0.;   ///< rounding of g since it was computed
     bool limits_are_given       = false;
