@@ -165,7 +165,9 @@ end
           const double rebound = (velocity[1][2] - velocity[0][2]) / (2. * speed);
           report(name + ": rebound", rebound);
           if (angle >= 20.) // below, only the nodes are kept apart
-            EXPECT_GT(rebound, shift.norm() > 0. ? 0. : 0.8) << name;
+            {
+              EXPECT_GT(rebound, shift.norm() > 0. ? 0. : 0.8) << name;
+            }
         }
   }
 
