@@ -161,14 +161,38 @@ namespace akmon
   Bonds::project(ContactNodes::Field &increments) const
   {
     Values u = gather([&](const Own &node) { return increments[node.number]; });
+    take_out_motion_of_points(u);
+    for (const auto &node : own)
+      increments.set(node.number, u[node.node]);
+  }
+
+
+  void
+  Bonds::project(const std::vector<ContactNodes::Id> &ids_of_increments,
+                 ContactNodes::Field &increments) const
+  {
+    Values u(nodes.size());
+    for (unsigned int i = 0; i < ids_of_increments.size(); ++i)
+      if (const auto number = number_of(ids_of_increments[i]);
+          number != numbers::invalid_unsigned_int)
+        u[number] = increments[i];
+    take_out_motion_of_points(u);
+    for (unsigned int i = 0; i < ids_of_increments.size(); ++i)
+      if (const auto number = number_of(ids_of_increments[i]);
+          number != numbers::invalid_unsigned_int)
+        increments.set(i, u[number]);
+  }
+
+
+  void
+  Bonds::take_out_motion_of_points(Values &u) const
+  {
     Eigen::VectorXd b(active->rows.size());
     for (std::size_t r = 0; r < active->rows.size(); ++r)
       b[r] = -(active->rows[r].direction * relative(points[active->rows[r].point], u));
     const Eigen::VectorXd t = solve(*active, b);
     for (std::size_t r = 0; r < active->rows.size(); ++r)
       add_response(points[active->rows[r].point], t[r] * active->rows[r].direction, u);
-    for (const auto &node : own)
-      increments.set(node.number, u[node.node]);
   }
 
 

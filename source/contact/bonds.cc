@@ -144,15 +144,25 @@ namespace akmon
   {
     for (auto &node : own)
       node.number = contact_nodes.number(contact_nodes.id_of_local(node.local_node));
+    if (nodes.empty())
+      return;
+    // Doubles hold integers of this size exactly.
+    const Values found = gather([&](const Own &node) {
+      return Tensor<1, 3>({double(contact_nodes.id(node.number)), 0., 0.});
+    });
+    for (const auto &id : found)
+      ids.push_back(ContactNodes::Id(id[0]));
   }
 
 
-  void
-  Bonds::add_nodes(std::vector<unsigned int> &numbers) const
+  // Number in `nodes` of a contact node that unbroken points take part in, else invalid.
+  unsigned int
+  Bonds::number_of(const ContactNodes::Id id) const
   {
-    for (const auto &node : own)
-      if (uses[node.node] > 0)
-        numbers.push_back(node.number);
+    const auto found = std::lower_bound(ids.begin(), ids.end(), id);
+    if (found == ids.end() || *found != id || uses[found - ids.begin()] == 0)
+      return numbers::invalid_unsigned_int;
+    return found - ids.begin();
   }
 
 

@@ -144,7 +144,7 @@ namespace akmon
         needed.insert(needed.end(), of_edges.begin(), of_edges.end());
       }
     nodes.reinit(needed);
-    mobility.reinit(nodes);
+    mobility.reinit(discretization, conditions, nodes);
     bonds->update_mobilities();
     nodes.gather(state.x, x);
     for (auto &search : searches)

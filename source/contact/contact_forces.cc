@@ -97,15 +97,14 @@ namespace akmon
   }
 
 
-  // Forces, and again while the gaps that they lead to are not what the linear constraints promise;
-  // not where the solver has failed, which it would do again.
+  // Forces, and again while the gaps that they lead to are not what the linear constraints promise.
   void
   Contact::solve_coupled(const NodalState &state)
   {
     constexpr unsigned int most_rounds = 16;
 
     coupled.solve(dx_free);
-    for (unsigned int round = 1; round < most_rounds && coupled.converged(); ++round)
+    for (unsigned int round = 1; round < most_rounds; ++round)
       {
         if (Utilities::MPI::max(follow_partners(state), discretization.communicator()) <= 1.)
           return;

@@ -127,6 +127,7 @@ namespace akmon
     : discretization(discretization)
     , solver(solver)
     , contacts(contacts)
+    , conditions(conditions)
     , bodies(bodies)
     , searches(make_searches(discretization, solver, contacts))
     , edge_searches(make_edge_searches(discretization, solver, contacts, searches))
@@ -136,7 +137,6 @@ namespace akmon
     , surface_nodes(owned_nodes(discretization, searches, obstacle_searches))
     , areas(discretization.n_owned_nodes, contact_faces())
     , nodes(discretization, surface_nodes, rigid_nodes.n)
-    , mobility(discretization, conditions)
     , bonds(std::make_unique<Bonds>(discretization, contacts, conditions))
     , coupled(solver, nodes, mobility, bonds.get())
   {

@@ -1,4 +1,7 @@
+#include <akmon/contact/bonds.h>
 #include <akmon/contact/coupled_solver.h>
+#include <akmon/contact/gather.h>
+#include <akmon/contact/united_sets.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -11,11 +14,6 @@ namespace akmon
 
   namespace
   {
-    // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
-    // for gaps (SemismoothNewton).
-    constexpr double compliance = 1e-7;
-
-
     // Where rigid bodies touch at more points than it takes, the gaps disagree by rounding, which
     // nothing can move: relative to the size of the pairs.
     double
@@ -38,16 +36,15 @@ namespace akmon
                                const Bonds *const bonds)
     : parameters(parameters)
     , nodes(nodes)
-    , delassus_of_all(nodes, mobility, bonds)
-    , delassus(nodes, mobility, bonds)
-    , preconditioner(nodes, mobility)
-    , newton(delassus, preconditioner, nodes.get_communicator())
+    , mobility(mobility)
+    , bonds(bonds)
+    , response(nodes, mobility, bonds)
   {
   }
 
 
   // Pairs that the step could close: the contact forces move a node by no more than a few times
-  // what the fastest pair would do freely. All others only cost iterations.
+  // what the fastest pair would do freely.
   void
   CoupledSolver::choose_participants(std::vector<ContactPair> &pairs,
                                      const ContactNodes::Field &dx_free,
@@ -59,11 +56,13 @@ namespace akmon
     const double margin = 4. * Utilities::MPI::max(fastest, nodes.get_communicator());
     all.clear();
     friction_of_all.clear();
+    active.clear();
     for (std::size_t i = 0; i < pairs.size(); ++i)
       if (pairs[i].target_gap <= margin)
         {
           all.push_back(&pairs[i]);
           friction_of_all.push_back(friction_of_pairs[i]);
+          active.push_back(pairs[i].normal_force > 0.);
         }
       else
         {
@@ -79,65 +78,46 @@ namespace akmon
                             const std::vector<double> &friction_of_pairs,
                             const double effective_mass_factor)
   {
-    n_iterations               = 0;
-    problem.start_is_reference = false;
-    last_residual              = 0.;
-    all_converged              = true;
+    n_applications = n_coupled = last_residual = 0.;
+    all_converged                              = true;
+    mass_factor                                = effective_mass_factor;
     choose_participants(pairs, dx_free, friction_of_pairs);
-    delassus_of_all.reinit(all, effective_mass_factor);
-    isolated = delassus_of_all.isolated_pairs();
-    coupled.clear();
-    problem.friction.clear();
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (!isolated[i])
-        {
-          coupled.push_back(all[i]);
-          problem.friction.push_back(friction_of_all[i]);
-        }
-    const auto any = [&](const bool here) {
-      return Utilities::MPI::max(int(here), nodes.get_communicator()) > 0;
-    };
-    couples_somewhere  = any(!coupled.empty());
-    friction_somewhere = any(std::any_of(friction_of_all.begin(),
-                                         friction_of_all.end(),
-                                         [](const double mu) { return mu > 0.; }));
-    if (!couples_somewhere)
-      return;
-    delassus.reinit(coupled, effective_mass_factor);
-    preconditioner.set_pairs(coupled, delassus, effective_mass_factor);
-    problem.norm = delassus.norm_bound();
-    problem.weights.resize(coupled.size());
-    for (std::size_t i = 0; i < coupled.size(); ++i)
-      problem.weights[i] = delassus.scale()[i] > 0. ?
-                             1. / (delassus.scale()[i] * coupled[i]->size) :
-                             0.;
+    response.reinit(all, mass_factor);
+    const bool friction_here = std::any_of(friction_of_all.begin(),
+                                           friction_of_all.end(),
+                                           [](const double mu) { return mu > 0.; });
+    friction_somewhere = Utilities::MPI::max(int(friction_here), nodes.get_communicator()) > 0;
+    for (auto &[key, island] : islands)
+      island->of_this_step = false;
   }
 
 
   void
   CoupledSolver::solve(const ContactNodes::Field &dx_free)
   {
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (isolated[i])
-        solve_alone(*all[i], dx_free, delassus_of_all.scale()[i], friction_of_all[i]);
-    if (couples_somewhere)
-      solve_together(dx_free);
+    const double tolerance = tolerance_for(dx_free);
+    for (auto &[key, island] : islands) // what has failed would do so again
+      island->is_solved = island->of_this_step && !island->get_result().converged;
+    activate(dx_free, nullptr, 0.);
+    do
+      {
+        collect_closing_pairs(dx_free);
+        divide_into_islands();
+        solve_islands(tolerance);
+        bring_forces_home();
+      }
+    while (activate(dx_free, &response.increments(), tolerance));
   }
 
 
-  // A pair that shares no node with another has the closed solution (80)(82), which is exact.
-  void
-  CoupledSolver::solve_alone(ContactPair &pair,
-                             const ContactNodes::Field &dx_free,
-                             const double s,
-                             const double mu) const
+  // n . G (dx_f + caused) + g
+  double
+  CoupledSolver::gap_after(const ContactPair &pair,
+                           const ContactNodes::Field &dx_free,
+                           const ContactNodes::Field *const caused) const
   {
-    const auto moved      = pair.relative(dx_free);
-    pair.normal_force     = std::max(0., -s * s * (pair.normal * moved + pair.target_gap));
-    const auto result     = Coulomb::tangential_force(-s * s * pair.tangential_part(moved),
-                                                  mu * pair.normal_force);
-    pair.tangential_force = result.force;
-    pair.sticks           = result.sticks;
+    const double gap = pair.normal * pair.relative(dx_free) + pair.target_gap;
+    return caused ? gap + pair.normal * pair.relative(*caused) : gap;
   }
 
 
@@ -145,65 +125,180 @@ namespace akmon
   // violation over the violation without contact forces is the relative error of the forces. Gaps
   // are not known better than to rounding, though.
   double
-  CoupledSolver::tolerance_for(const double violation) const
+  CoupledSolver::tolerance_for(const ContactNodes::Field &dx_free) const
   {
     constexpr double force_tolerance = 1e-11, rounding = 1e-14;
+
+    double violation = 0.;
+    for (const ContactPair *const pair : all)
+      violation = std::max(violation, -gap_after(*pair, dx_free, nullptr) / pair->size);
     const double relative = force_tolerance *
                             Utilities::MPI::max(violation, nodes.get_communicator());
-    return std::min(parameters.tolerance, std::max(relative, rounding));
+    return std::max(std::min(parameters.tolerance, std::max(relative, rounding)),
+                    Utilities::MPI::max(rounding_of_rigid_gaps(all), nodes.get_communicator()));
+  }
+
+
+  // Pairs join that penetrate by more than what is tolerated, relative to the cell size, and that
+  // forces can move. Whether there are any, on any rank.
+  bool
+  CoupledSolver::activate(const ContactNodes::Field &dx_free,
+                          const ContactNodes::Field *const caused,
+                          const double tolerance)
+  {
+    bool any = false;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!active[i] && gap_after(*all[i], dx_free, caused) < -tolerance * all[i]->size &&
+          mobility.along(*all[i], all[i]->normal, mass_factor) > 0.)
+        any = active[i] = true;
+    return Utilities::MPI::max(int(any), nodes.get_communicator()) > 0;
   }
 
 
   void
-  CoupledSolver::solve_together(const ContactNodes::Field &dx_free)
+  CoupledSolver::collect_closing_pairs(const ContactNodes::Field &dx_free)
   {
-    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
+    const MPI_Comm communicator = nodes.get_communicator();
+    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
+    closing.clear();
+    for (unsigned int i = 0; i < all.size(); ++i)
+      if (active[i])
+        {
+          ClosingPair own{*all[i], {}, {}, friction_of_all[i], all[i]->relative(dx_free), rank, i};
+          for (unsigned int k = 0; k < all[i]->n_nodes; ++k)
+            {
+              own.ids[k]      = nodes.id_or_common(all[i]->nodes[k]);
+              own.mobility[k] = mobility[all[i]->nodes[k]];
+            }
+          closing.push_back(own);
+        }
+    if (!nodes.is_parallel())
+      return;
+    closing = gather(closing, communicator);
+    std::sort(closing.begin(), closing.end(), [](const auto &a, const auto &b) {
+      return a.pair.key() < b.pair.key();
+    });
+  }
 
-    const auto &s       = delassus.scale();
-    const std::size_t n = coupled.size();
-    problem.b.resize(n);
-    problem.compliance = compliance;
-    problem.limit      = parameters.limit;
-    tau.resize(n);
-    double violation = 0.;
-    for (std::size_t i = 0; i < n; ++i)
+
+  bool
+  CoupledSolver::is_bonded(const ClosingPair &closing_pair) const
+  {
+    return bonds && bonds->exist() &&
+           std::any_of(closing_pair.ids.begin(),
+                       closing_pair.ids.begin() + closing_pair.pair.n_nodes,
+                       [&](const ContactNodes::Id id) { return bonds->hold_node(id); });
+  }
+
+
+  // Nodes that move are what pairs share. All bonds together are like one node.
+  void
+  CoupledSolver::divide_into_islands()
+  {
+    const ContactNodes::Id all_bonds = numbers::invalid_dof_index;
+    std::vector<std::pair<ContactNodes::Id, unsigned int>> at_nodes;
+    for (unsigned int i = 0; i < closing.size(); ++i)
       {
-        const auto &pair = *coupled[i];
-        problem.b[i]     = s[i] * (delassus.frame(i) * pair.relative(dx_free));
-        problem.b[i][0] += s[i] * pair.target_gap;
-        tau[i]    = s[i] > 0. ? delassus.frame(i) * pair.force() / s[i] : Tensor<1, 3>();
-        violation = std::max(violation, -problem.weights[i] * problem.b[i][0]);
+        for (unsigned int k = 0; k < closing[i].pair.n_nodes; ++k)
+          if (trace(closing[i].mobility[k]) > 0.)
+            at_nodes.emplace_back(closing[i].ids[k], i);
+        if (is_bonded(closing[i]))
+          at_nodes.emplace_back(all_bonds, i);
       }
-    problem.tolerance  = std::max(tolerance_for(violation),
-                                 Utilities::MPI::max(rounding_of_rigid_gaps(coupled),
-                                                     nodes.get_communicator()));
-    problem.sufficient = std::max(parameters.tolerance, problem.tolerance);
-    const auto result  = newton.solve(problem, tau);
-    n_iterations += result.n_applications;
-    problem.start_is_reference = true; // of the next gaps of the same step
-    last_residual              = std::max(last_residual, result.residual);
-    all_converged              = all_converged && result.converged;
-    if (!preconditioner.is_old())
-      iterations_when_new = result.n_applications;
-    else if (result.n_applications > iterations_when_new + patience)
-      preconditioner.forget();
-    for (std::size_t i = 0; i < n; ++i)
+    std::sort(at_nodes.begin(), at_nodes.end());
+    UnitedSets sets(closing.size());
+    for (std::size_t i = 1; i < at_nodes.size(); ++i)
+      if (at_nodes[i].first == at_nodes[i - 1].first)
+        sets.unite(at_nodes[i - 1].second, at_nodes[i].second);
+
+    const unsigned int rank = Utilities::MPI::this_mpi_process(nodes.get_communicator());
+    std::map<Key, std::unique_ptr<Island>> old = std::move(islands);
+    islands.clear();
+    for (const auto &list : sets.lists())
       {
-        auto &pair            = *coupled[i];
-        const auto force      = s[i] * tau[i];
-        pair.normal_force     = force[0];
-        pair.tangential_force = force[1] * delassus.frame(i)[1] + force[2] * delassus.frame(i)[2];
-        // On the circle up to rounding is sliding.
-        pair.sticks = pair.normal_force > 0. &&
-                      pair.tangential_force.norm() <
-                        (1. - 1e-12) * problem.friction[i] * pair.normal_force;
+        const ClosingPair &first = closing[list.front()];
+        if (first.rank != rank)
+          continue;
+        auto &island     = islands[first.pair.key()];
+        const auto found = old.find(first.pair.key());
+        island = found == old.end() ? std::make_unique<Island>() : std::move(found->second);
+        island->members.clear();
+        for (const unsigned int i : list)
+          island->members.push_back(&closing[i]);
+        // Pairs only join during a step.
+        if (island->of_this_step && island->get_pairs().size() == list.size())
+          continue;
+        const bool bonded = std::any_of(list.begin(), list.end(), [&](const auto i) {
+          return is_bonded(closing[i]);
+        });
+        island->reinit(island->members,
+                       nodes.first_common_id(),
+                       bonded ? bonds : nullptr,
+                       mass_factor);
+        island->of_this_step = true;
+        island->is_solved    = false;
       }
   }
 
 
-  const ContactNodes::Field &
-  CoupledSolver::increments()
+  void
+  CoupledSolver::solve_islands(const double tolerance)
   {
-    return delassus_of_all.increments([&](const std::size_t i) { return all[i]->force(); });
+    std::vector<double> sums(2, 0.), worst(2, 0.);
+    for (auto &[key, island] : islands)
+      {
+        const double n = island->has_closed_solution() ? 0. : island->members.size();
+        sums[1] += n;
+        if (island->is_solved)
+          continue;
+        island->solve(island->members, parameters, tolerance, newton);
+        island->is_solved  = true;
+        const auto &result = island->get_result();
+        sums[0] += n * result.n_applications;
+        worst[0] = std::max(worst[0], result.residual);
+        worst[1] = std::max(worst[1], result.converged ? 0. : 1.);
+      }
+    Utilities::MPI::sum(sums, nodes.get_communicator(), sums);
+    Utilities::MPI::max(worst, nodes.get_communicator(), worst);
+    n_applications += sums[0];
+    n_coupled     = sums[1];
+    last_residual = std::max(last_residual, worst[0]);
+    all_converged = all_converged && worst[1] == 0.;
+  }
+
+
+  void
+  CoupledSolver::bring_forces_home()
+  {
+    const MPI_Comm communicator = nodes.get_communicator();
+    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
+    std::vector<Solved> solved;
+    for (const auto &[key, island] : islands)
+      for (std::size_t i = 0; i < island->members.size(); ++i)
+        {
+          const ContactPair &pair = island->get_pairs()[i];
+          solved.push_back({island->members[i]->rank,
+                            island->members[i]->number,
+                            pair.normal_force,
+                            pair.tangential_force,
+                            pair.sticks});
+        }
+    if (nodes.is_parallel())
+      solved = gather(solved, communicator);
+    for (const Solved &of_pair : solved)
+      if (of_pair.rank == rank)
+        {
+          ContactPair &pair     = *all[of_pair.number];
+          pair.normal_force     = of_pair.normal_force;
+          pair.tangential_force = of_pair.tangential_force;
+          pair.sticks           = of_pair.sticks;
+        }
+  }
+
+
+  unsigned int
+  CoupledSolver::iterations() const
+  {
+    return n_coupled > 0. ? static_cast<unsigned int>(std::ceil(n_applications / n_coupled)) : 0;
   }
 } // namespace akmon

@@ -4,15 +4,10 @@ namespace akmon
 {
   using namespace dealii;
 
-  Mobility::Mobility(const Discretization &discretization, const EssentialConditions &conditions)
-    : discretization(discretization)
-    , conditions(conditions)
-  {
-  }
-
-
   void
-  Mobility::reinit(const ContactNodes &nodes)
+  Mobility::reinit(const Discretization &discretization,
+                   const EssentialConditions &conditions,
+                   const ContactNodes &nodes)
   {
     ContactNodes::Field diagonal, off_diagonal;
     nodes.make(diagonal);

@@ -21,9 +21,8 @@ namespace
   {
     Alone(const unsigned int n, const unsigned int m)
       : boxes(n, m, 0.4, true)
-      , mobility(boxes.discretization, boxes.conditions)
     {
-      mobility.reinit(boxes.nodes);
+      mobility.reinit(boxes.discretization, boxes.conditions, boxes.nodes);
       std::mt19937 random(11);
       std::normal_distribution<double> normal;
       boxes.nodes.make(dx_free);

@@ -49,10 +49,8 @@ namespace
                        MPI_COMM_SELF)
       , conditions(discretization, this->motions)
       , nodes(discretization, surface_nodes())
-      , mobility(discretization, conditions)
-      , delassus(nodes, mobility)
     {
-      mobility.reinit(nodes);
+      mobility.reinit(discretization, conditions, nodes);
       // Contact refers to what it is given.
       const ContactSolver solver; // as by default: coupled
       const std::vector<SurfaceContact> contacts = {touching()};
@@ -60,10 +58,7 @@ namespace
       Contact contact(discretization, solver, contacts, no_obstacles, conditions);
       contact.search(NodalState(discretization));
       pairs = contact.get_pairs();
-      std::vector<ContactPair *> all;
-      for (auto &pair : pairs)
-        all.push_back(&pair);
-      delassus.reinit(all, mass_factor);
+      delassus.reinit(pairs, mobility, mass_factor);
     }
 
     static SurfaceContact

@@ -239,7 +239,8 @@ namespace
         const unsigned int limit = 2000)
   {
     Diagonal diagonal;
-    SemismoothNewton<const Problem, Diagonal> solver(problem, diagonal, MPI_COMM_SELF);
+    SemismoothNewton<const Problem, Diagonal> solver;
+    std::vector<CoulombFace> faces;
     const auto result = solver.solve({problem.b,
                                       friction,
                                       std::vector<double>(t.size(), 1.),
@@ -249,7 +250,10 @@ namespace
                                       tolerance,
                                       limit,
                                       false},
-                                     t);
+                                     problem,
+                                     diagonal,
+                                     t,
+                                     faces);
     return {result.n_applications, result.residual, result.converged};
   }
 

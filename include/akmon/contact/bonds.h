@@ -43,15 +43,18 @@ namespace akmon
     bool
     hold(const ContactPair &pair) const;
 
-    /// Contact numbers of the owned nodes that unbroken points take part in.
-    void
-    add_nodes(std::vector<unsigned int> &numbers) const;
+    /// Whether unbroken points take part in the motion of a contact node.
+    bool
+    hold_node(const ContactNodes::Id id) const
+    {
+      return number_of(id) != dealii::numbers::invalid_unsigned_int;
+    }
 
     /// Take up the masses of the nodes, which may have been scaled (collective).
     void
     update_mobilities();
 
-    /// Tell the contact numbers of owned nodes.
+    /// Tell the numbers of contact nodes (collective).
     void
     set_numbers(const ContactNodes &nodes);
 
@@ -68,6 +71,11 @@ namespace akmon
     /// Take out of increments of owned nodes what holding points do not let happen (collective).
     void
     project(ContactNodes::Field &increments) const;
+
+    /// The same for increments of any nodes, all others being at rest.
+    /// @param ids  of the nodes
+    void
+    project(const std::vector<ContactNodes::Id> &ids, ContactNodes::Field &increments) const;
 
     /// Force at an owned node; force.
     struct NodalForce
@@ -176,6 +184,10 @@ namespace akmon
     template <typename Value>
     Values
     gather(const Value &value_at_own) const;
+    unsigned int
+    number_of(const ContactNodes::Id id) const;
+    void
+    take_out_motion_of_points(Values &u) const;
     void
     number_nodes(const std::vector<std::vector<TiedFace>> &faces);
     void
@@ -217,6 +229,7 @@ namespace akmon
     const EssentialConditions &conditions;
     std::vector<Point> points;                          ///< by interface and slave
     std::vector<dealii::types::global_dof_index> nodes; ///< of all tied surfaces, sorted
+    std::vector<ContactNodes::Id> ids;                  ///< of the nodes, sorted too
     std::vector<dealii::SymmetricTensor<2, 3>> W;       ///< by node; 1/mass
     std::vector<Own> own;
     std::vector<int> counts, first_of_rank;           ///< of values of the ranks in a gather

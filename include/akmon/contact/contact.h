@@ -273,6 +273,7 @@ namespace akmon
     const Discretization &discretization;
     const ContactSolver &solver;
     const std::vector<SurfaceContact> &contacts;
+    const EssentialConditions &conditions;
     std::vector<RigidBody> &bodies;
     std::vector<SurfaceSearch> searches;
     std::vector<EdgeSearch> edge_searches;         ///< one per contact, or none

@@ -94,6 +94,19 @@ namespace akmon
       return partitioner->local_to_global(3 * number) / 3;
     }
 
+    /// The same for all contact numbers: common nodes come behind all others.
+    Id
+    id_or_common(const unsigned int number) const
+    {
+      return number < first_common() ? id(number) : first_common_id() + (number - first_common());
+    }
+
+    Id
+    first_common_id() const
+    {
+      return owned_indices.size() / 3;
+    }
+
     /// Three components per contact node.
     class Field
     {
@@ -125,6 +138,13 @@ namespace akmon
         std::fill(values.begin(), values.end(), 0.);
       }
 
+      /// Zeros for n nodes.
+      void
+      reinit(const unsigned int n)
+      {
+        values.assign(3 * std::size_t(n), 0.);
+      }
+
     private:
       friend class ContactNodes;
       std::vector<double> values;
@@ -134,7 +154,7 @@ namespace akmon
     void
     make(Field &field) const
     {
-      field.values.assign(3 * std::size_t(size()), 0.);
+      field.reinit(size());
     }
 
     /// Values of a nodal vector at all contact nodes (collective).

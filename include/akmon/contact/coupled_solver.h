@@ -1,19 +1,24 @@
 #pragma once
 
+#include <akmon/contact/contact_island.h>
 #include <akmon/contact/contact_parameters.h>
-#include <akmon/contact/delassus.h>
+#include <akmon/contact/contact_response.h>
 #include <akmon/contact/pair.h>
-#include <akmon/contact/pair_preconditioner.h>
-#include <akmon/contact/semismooth_newton.h>
 
+#include <map>
+#include <memory>
 #include <vector>
 
 namespace akmon
 {
   /**
    * The coupled contact problem of a step (Problem 2, (72)-(75)): normal and friction forces of all
-   * pairs at once with the full Delassus operator. Constraints may repeat each other (symmetric
-   * passes): a small compliance makes forces unique.
+   * pairs at once with the full Delassus operator.
+   *
+   * An outer active set: pairs that had a force, or would penetrate without any, fall into islands
+   * that share no node, each a problem of its own; pairs that their solution makes penetrate join,
+   * and the islands they join are solved again, until there are none. An island is solved by the
+   * rank of its first pair, so that solutions do not depend on the number of ranks.
    */
   class CoupledSolver
   {
@@ -48,14 +53,16 @@ namespace akmon
 
     /// Nodal increments that the pairs' forces cause, at all contact nodes (collective).
     const ContactNodes::Field &
-    increments();
+    increments()
+    {
+      return response.increments();
+    }
 
     /// Keep nothing that saves time from earlier steps.
     void
     start_afresh()
     {
-      preconditioner.forget();
-      iterations_when_new = 0;
+      islands.clear();
     }
 
     /// Pairs that may close in this step.
@@ -65,14 +72,12 @@ namespace akmon
       return all;
     }
 
-    /// Applications of the Delassus operator in the step so far, the same on all ranks.
+    /// Applications of the Delassus operator in the step so far, those of an island counted as the
+    /// part of the operator that the island is; the same on all ranks.
     unsigned int
-    iterations() const
-    {
-      return n_iterations;
-    }
+    iterations() const;
 
-    /// Largest gap violation the last solution left, relative to the cell size.
+    /// Largest gap violation a solution left, relative to the cell size.
     double
     residual() const
     {
@@ -87,36 +92,66 @@ namespace akmon
     }
 
   private:
+    using Key = decltype(std::declval<const ContactPair &>().key());
+
+    struct Island : ContactIsland
+    {
+      std::vector<const ClosingPair *> members;
+      bool of_this_step = false;
+      bool is_solved    = false; ///< for the present target gaps, or will not be
+    };
+
+    // What a solution tells the rank of a pair.
+    struct Solved
+    {
+      unsigned int rank, number;
+      double normal_force;
+      dealii::Tensor<1, 3> tangential_force;
+      bool sticks;
+    };
+
     void
     choose_participants(std::vector<ContactPair> &pairs,
                         const ContactNodes::Field &dx_free,
                         const std::vector<double> &friction);
-    void
-    solve_alone(ContactPair &pair,
-                const ContactNodes::Field &dx_free,
-                const double s,
-                const double friction) const;
-    void
-    solve_together(const ContactNodes::Field &dx_free);
     double
-    tolerance_for(const double violation) const;
+    gap_after(const ContactPair &pair,
+              const ContactNodes::Field &dx_free,
+              const ContactNodes::Field *caused) const;
+    double
+    tolerance_for(const ContactNodes::Field &dx_free) const;
+    bool
+    activate(const ContactNodes::Field &dx_free,
+             const ContactNodes::Field *caused,
+             const double tolerance);
+    void
+    collect_closing_pairs(const ContactNodes::Field &dx_free);
+    void
+    divide_into_islands();
+    bool
+    is_bonded(const ClosingPair &closing) const;
+    void
+    solve_islands(const double tolerance);
+    void
+    bring_forces_home();
 
     const ContactSolver &parameters;
     const ContactNodes &nodes;
-    Delassus delassus_of_all, delassus;
-    PairPreconditioner preconditioner;
-    SemismoothNewton<Delassus, PairPreconditioner> newton;
-    unsigned int iterations_when_new = 0; ///< that fresh factors took
+    const Mobility &mobility;
+    const Bonds *const bonds;
+    ContactResponse response;
+    ContactIsland::Newton newton;
 
-    std::vector<ContactPair *> all, coupled; ///< pairs that may close, those that share nodes
+    std::vector<ContactPair *> all; ///< pairs that may close
     std::vector<double> friction_of_all;
-    std::vector<bool> isolated;                                      ///< by number in `all`
-    SemismoothNewton<Delassus, PairPreconditioner>::Problem problem; ///< in tau_i = t_i/s_i
-    Delassus::Vector tau;
-    bool couples_somewhere    = false;
-    bool friction_somewhere   = false;
-    unsigned int n_iterations = 0;
-    double last_residual      = 0.;
-    bool all_converged        = true;
+    std::vector<bool> active; ///< by number in `all`
+    double mass_factor = 1.;
+    std::vector<ClosingPair> closing;               ///< active pairs of all ranks, sorted by key
+    std::map<Key, std::unique_ptr<Island>> islands; ///< that this rank solves, by their first pair
+    bool friction_somewhere = false;
+    double n_applications   = 0.; ///< to a pair, in all islands
+    double n_coupled        = 0.; ///< pairs in all islands that have no closed solution
+    double last_residual    = 0.;
+    bool all_converged      = true;
   };
 } // namespace akmon

@@ -2,7 +2,6 @@
 
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/mobility.h>
-#include <akmon/contact/nodal_sums.h>
 #include <akmon/contact/pair.h>
 
 #include <vector>
@@ -16,21 +15,31 @@ namespace akmon
    * assembled: forces to nodes, increments of nodes, relative increments of pairs. Scaled so that
    * its diagonal along the normals is one, which preconditions the solvers: unknowns are
    * tau_i = t_i/s_i with s_i = (n . A_ii n)^{-1/2}, results are s_i times relative increments.
+   * Sums are in the order of the pairs.
    */
   class Delassus
   {
   public:
     using Vector = std::vector<dealii::Tensor<1, 3>>;
 
-    /// @param bonds  whose constraints are taken out of the nodes' motion, if there are any
-    Delassus(const ContactNodes &nodes, const Mobility &mobility, const Bonds *bonds = nullptr);
-
     /**
-     * @param pairs        the pairs to couple; referred to until the next call
+     * @param pairs        the pairs to couple; their nodes are numbers in @p mobility; referred to
+     * @param mobility     of the pairs' nodes; referred to
      * @param mass_factor  effective mass factor of the step
      */
     void
-    reinit(const std::vector<ContactPair *> &pairs, const double mass_factor);
+    reinit(const std::vector<ContactPair> &pairs,
+           const Mobility &mobility,
+           const double mass_factor);
+
+    /// Take the constraints of bonds out of the nodes' motion. Both are referred to.
+    /// @param ids  of the nodes
+    void
+    set_bonds(const Bonds &new_bonds, const std::vector<ContactNodes::Id> &new_ids)
+    {
+      bonds = &new_bonds;
+      ids   = &new_ids;
+    }
 
     /// s_i; sqrt(force/length). Zero for pairs that no normal force can move.
     const std::vector<double> &
@@ -39,14 +48,9 @@ namespace akmon
       return scales;
     }
 
-    /// An upper bound of the norm of the scaled operator, the same on all ranks (collective).
+    /// An upper bound of the norm of the scaled operator.
     double
-    norm_bound();
-
-    /// Pairs whose nodes belong to no other pair and move alike in all directions: A_ii is a
-    /// multiple of the identity, at least where they can move (collective).
-    std::vector<bool>
-    isolated_pairs();
+    norm_bound() const;
 
     /// Rows: normal and two tangents of pair i. Forces and results of apply() are in these frames.
     const dealii::Tensor<2, 3> &
@@ -55,49 +59,18 @@ namespace akmon
       return frames[i];
     }
 
-    /// y_i = s_i F_i G_i m*^{-1} sum_j G_j^T F_j^T s_j tau_j with the frames F (collective).
+    /// y_i = s_i F_i G_i m*^{-1} sum_j G_j^T F_j^T s_j tau_j with the frames F.
     void
     apply(const Vector &tau, Vector &y);
 
-    /// Nodal increments that forces t_i (a vector per pair, unscaled) cause, at all contact nodes
-    /// (collective).
-    template <typename Force>
-    const ContactNodes::Field &
-    increments(const Force &force_of_pair);
-
   private:
-    void
-    clear();
-    void
-    forces_to_increments();
-    bool
-    is_bonded() const;
-
-    const ContactNodes &nodes;
-    const Mobility &mobility;
-    const Bonds *const bonds;
-    std::vector<ContactPair *> pairs;
-    double mass_factor = 1.;
+    const std::vector<ContactPair> *pairs    = nullptr;
+    const Mobility *mobility                 = nullptr;
+    const Bonds *bonds                       = nullptr;
+    const std::vector<ContactNodes::Id> *ids = nullptr;
+    double mass_factor                       = 1.;
     std::vector<double> scales;
     std::vector<dealii::Tensor<2, 3>> frames;
-    std::vector<unsigned int> used; ///< contact numbers the pairs touch, sorted
     ContactNodes::Field field;
-    NodalSums sums;
   };
-
-
-  template <typename Force>
-  const ContactNodes::Field &
-  Delassus::increments(const Force &force_of_pair)
-  {
-    clear();
-    sums.add(
-      pairs,
-      [&](const std::size_t i, const unsigned int k) {
-        return pairs[i]->at_node(k, force_of_pair(i));
-      },
-      field);
-    forces_to_increments();
-    return field;
-  }
 } // namespace akmon

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <akmon/contact/reproducible_sums.h>
-
-#include <deal.II/base/mpi.h>
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
@@ -14,21 +11,26 @@ namespace akmon
   /**
    * Generalized minimal residuals, preconditioned from the right (Saad, Iterative Methods for
    * Sparse Linear Systems, 2nd ed., algorithm 9.5), for vectors of three components per contact
-   * pair that are distributed over ranks. Keeps what the operator made of its basis, so that images
-   * of the solution are known without another application. Its storage is reused.
+   * pair. Keeps what the operator made of its basis, so that images of the solution are known
+   * without another application. Its storage is reused.
    */
   class Gmres
   {
   public:
     using Vector = std::vector<dealii::Tensor<1, 3>>;
 
-    explicit Gmres(const MPI_Comm communicator)
-      : communicator(communicator)
+    /// v . w
+    static double
+    product(const Vector &v, const Vector &w)
     {
+      double sum = 0.;
+      for (std::size_t i = 0; i < v.size(); ++i)
+        sum += v[i] * w[i];
+      return sum;
     }
 
     /**
-     * Minimise |r - K x| over the Krylov space (collective).
+     * Minimise |r - K x| over the Krylov space.
      * @param apply         apply(z, image, y): y = K z; `image` is kept along with z
      * @param precondition  precondition(v, z): z close to K^{-1} v
      * @param target        norm of the residual that is small enough
@@ -48,7 +50,7 @@ namespace akmon
       columns.clear();
       coefficients.clear();
       rotations.clear();
-      rest = {std::sqrt(products(r, 1, [&](unsigned int) -> const Vector & { return r; })[0])};
+      rest = {std::sqrt(product(r, r))};
       if (!(rest[0] > 0.))
         return;
       set_to(basis[0], r, 1. / rest[0]);
@@ -81,21 +83,6 @@ namespace akmon
     }
 
   private:
-    // Of a vector with n others, over all ranks, whose number they do not depend on.
-    template <typename Others>
-    std::vector<double>
-    products(const Vector &v, const unsigned int n, const Others &other)
-    {
-      addends.resize(n);
-      for (unsigned int k = 0; k < n; ++k)
-        {
-          addends[k].resize(v.size());
-          for (std::size_t i = 0; i < v.size(); ++i)
-            addends[k][i] = v[i] * other(k)[i];
-        }
-      return reproducible_sums(addends, communicator);
-    }
-
     static void
     set_to(Vector &v, const Vector &w, const double factor)
     {
@@ -109,12 +96,11 @@ namespace akmon
     orthogonalize(const unsigned int k)
     {
       Vector &v = basis[k + 1];
-      std::vector<double> column(k + 2);
+      std::vector<double> column(k + 2), sums(k + 1);
       for (unsigned int pass = 0; pass < 2; ++pass)
         {
-          const auto sums = products(v, k + 1, [&](const unsigned int j) -> const Vector & {
-            return basis[j];
-          });
+          for (unsigned int j = 0; j <= k; ++j)
+            sums[j] = product(v, basis[j]);
           for (unsigned int j = 0; j <= k; ++j)
             {
               column[j] += sums[j];
@@ -122,9 +108,8 @@ namespace akmon
                 v[i] -= sums[j] * basis[j][i];
             }
         }
-      const double norm = std::sqrt(
-        products(v, 1, [&](unsigned int) -> const Vector & { return v; })[0]);
-      column[k + 1] = norm;
+      const double norm = std::sqrt(product(v, v));
+      column[k + 1]     = norm;
       for (unsigned int j = 0; j < k; ++j)
         rotate(rotations[j], column[j], column[j + 1]);
       const double length = std::hypot(column[k], column[k + 1]);
@@ -166,9 +151,7 @@ namespace akmon
         }
     }
 
-    const MPI_Comm communicator;
     std::vector<Vector> basis, directions, images;
-    std::vector<std::vector<double>> addends; ///< of products
     std::vector<std::vector<double>> columns; ///< of the triangular matrix
     std::vector<Rotation> rotations;
     std::vector<double> rest; ///< rotated right-hand side; its last entry is the residual

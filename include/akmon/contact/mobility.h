@@ -4,6 +4,7 @@
 #include <akmon/contact/pair.h>
 #include <akmon/model/essential_conditions.h>
 
+#include <utility>
 #include <vector>
 
 namespace akmon
@@ -16,11 +17,26 @@ namespace akmon
   class Mobility
   {
   public:
-    Mobility(const Discretization &discretization, const EssentialConditions &conditions);
-
     /// Compute W of all contact nodes (collective); whenever their set has changed.
     void
-    reinit(const ContactNodes &nodes);
+    reinit(const Discretization &discretization,
+           const EssentialConditions &conditions,
+           const ContactNodes &nodes);
+
+    /// Take W of nodes in another numbering, whose last ones are common nodes.
+    void
+    reinit(std::vector<dealii::SymmetricTensor<2, 3>> new_W, const unsigned int new_first_common)
+    {
+      W            = std::move(new_W);
+      first_common = new_first_common;
+    }
+
+    /// Number of nodes.
+    unsigned int
+    size() const
+    {
+      return W.size();
+    }
 
     /// Set W of a common node; 1/mass, or 1/inertia of a rotation.
     void
@@ -88,8 +104,6 @@ namespace akmon
           const double mass_factor) const;
 
   private:
-    const Discretization &discretization;
-    const EssentialConditions &conditions;
     std::vector<dealii::SymmetricTensor<2, 3>> W; ///< by contact number
     unsigned int first_common = 0;
   };

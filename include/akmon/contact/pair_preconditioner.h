@@ -1,16 +1,13 @@
 #pragma once
 
-#include <akmon/contact/cholesky_factor.h>
 #include <akmon/contact/coulomb_faces.h>
 #include <akmon/contact/delassus.h>
-#include <akmon/contact/lu_factor.h>
+#include <akmon/contact/matrix_factor.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/pair.h>
 
 #include <array>
 #include <memory>
-#include <tuple>
-#include <utility>
 #include <vector>
 
 namespace akmon
@@ -31,72 +28,47 @@ namespace akmon
    * the diagonal only. Pairs that share nodes, directly or through others, are a group with a
    * factor of its own, which is kept, from step to step too, while its free directions are about
    * the same: weights and normals that have changed a little make it no worse.
-   *
-   * Every rank has the factors of all groups and computes the same with them, so that iterations,
-   * and with them solutions, are those of one rank.
    */
   class PairPreconditioner
   {
   public:
     using Vector = std::vector<dealii::Tensor<1, 3>>;
 
-    PairPreconditioner(const ContactNodes &nodes, const Mobility &mobility);
-
     /**
-     * The pairs of the coming solutions.
-     * @param delassus  of these pairs: scales and frames; referred to
+     * The pairs of the coming solutions, sorted by their keys. All are referred to.
+     * @param delassus  of these pairs: scales and frames
      */
     void
-    set_pairs(const std::vector<ContactPair *> &pairs,
+    set_pairs(const std::vector<ContactPair> &pairs,
               const Delassus &delassus,
+              const Mobility &mobility,
               const double mass_factor);
 
     /// Factors made so far are too far from what they are used for.
     void
-    forget();
+    forget()
+    {
+      groups.clear();
+    }
 
-    /// Whether factors of an earlier step are in use; the same on all ranks.
+    /// Whether factors made for earlier pairs are in use.
     bool
     is_old() const;
 
     /**
-     * What the coming applications are for (collective).
+     * What the coming applications are for.
      * @param faces  with the free directions
      * @param shift  added to the unit diagonal
      */
     void
     reinit(const std::vector<CoulombFace> &faces, const double shift);
 
-    /// z close to J^{-1} r in the free directions (collective).
+    /// z close to J^{-1} r in the free directions.
     void
     apply(const Vector &r, Vector &z);
 
   private:
-    // Which pair it is, beyond the step.
-    using Key = std::tuple<ContactNodes::Id,
-                           unsigned int,
-                           unsigned int,
-                           bool,
-                           bool,
-                           std::array<ContactNodes::Id, 3>>;
-
-    // A closed pair of any rank, with the nodes that couple it.
-    struct ClosedPair
-    {
-      ContactNodes::Id slave;
-      unsigned int interface, slot;
-      bool reversed, of_edges;
-      std::array<ContactNodes::Id, 3> others;
-      CoulombFace face;
-      unsigned int n_nodes;
-      std::array<ContactNodes::Id, 7> nodes;
-
-      Key
-      key() const
-      {
-        return {slave, interface, slot, reversed, of_edges, others};
-      }
-    };
+    using Key = decltype(std::declval<const ContactPair &>().key());
 
     // The free directions of a pair, in its frame.
     struct Directions
@@ -108,68 +80,60 @@ namespace akmon
       explicit Directions(const CoulombFace &face);
     };
 
+    // A closed pair in a group.
+    struct Member
+    {
+      Key key;
+      CoulombFace face;
+      unsigned int pair; ///< its number
+      unsigned int row;  ///< its first one
+      Directions directions;
+    };
+
     // Pairs that share nodes, and their factor.
     struct Group
     {
-      std::vector<Key> keys; ///< of its pairs, sorted
-      std::vector<CoulombFace> faces;
-      std::vector<unsigned int> members; ///< numbers of its pairs among the closed ones
+      std::vector<Member> members; ///< sorted by key
       unsigned int n_rows = 0;
-      bool symmetric      = true; ///< no force of slip follows a normal force
-      CholeskyFactor cholesky;    ///< if so
-      LuFactor lu;                ///< if not
-      bool valid = false;         ///< whether J could be factorized
-      bool old   = false;         ///< whether it was made in an earlier step
+      MatrixFactor factor;
+      bool valid = false; ///< whether J could be factorized
+      bool old   = false; ///< whether it was made for other pairs
     };
 
-    // What a unit force along a direction e of a pair, and the force of slip that follows it, does
-    // to a node, s_i N_ik L e, and the motion that is the pair's along e, s_i M_k^{-1} N_ik e.
+    // What a unit force along a free direction, and the force of slip that follows it, does to a
+    // node, s_i N_ik L e, and the motion that is the pair's along e, s_i M_k^{-1} N_ik e.
     struct Entry
     {
-      ContactNodes::Id node; ///< invalid: of a rigid body
-      unsigned int pair;     ///< its number among the closed ones
-      unsigned int row;      ///< of the pair, then of its group
+      unsigned int node;
+      unsigned int row;
       dealii::Tensor<1, 3> force, increment;
     };
 
     bool
     is_closed(const unsigned int pair, const std::vector<CoulombFace> &faces) const;
-    bool
-    still_serve(const std::vector<CoulombFace> &faces);
-    void
-    gather_closed_pairs(const std::vector<CoulombFace> &faces);
     std::vector<std::vector<unsigned int>>
-    divide() const;
-    void
-    make_groups(const std::vector<std::vector<unsigned int>> &lists);
+    divide(const std::vector<unsigned int> &closed) const;
     bool
-    serves(const Group &group, const std::vector<unsigned int> &list) const;
+    serves(const Group &group,
+           const std::vector<unsigned int> &list,
+           const std::vector<CoulombFace> &faces) const;
     void
-    number_rows();
+    make_group(const std::vector<unsigned int> &list,
+               const std::vector<CoulombFace> &faces,
+               Group &group);
     void
-    gather_entries(const std::vector<bool> &is_new);
+    collect_entries(const Group &group);
     void
-    factorize(Group &group,
-              const std::vector<Entry>::const_iterator begin,
-              const std::vector<Entry>::const_iterator end);
+    factorize(Group &group);
 
-    const ContactNodes &nodes;
-    const Mobility &mobility;
-    double shift = 0.;
-    std::vector<ContactPair *> pairs;
-    const Delassus *delassus = nullptr;
-    double mass_factor       = 1.;
-
-    std::vector<unsigned int> own;  ///< closed pairs of this rank
-    std::vector<ClosedPair> closed; ///< of all ranks, one after another; faces as in the factors
-    std::vector<int> n_closed;      ///< of the ranks
-    unsigned int first_own = 0;     ///< number of this rank's first pair among the closed ones
+    double shift                          = 0.;
+    const std::vector<ContactPair> *pairs = nullptr;
+    const Delassus *delassus              = nullptr;
+    const Mobility *mobility              = nullptr;
+    double mass_factor                    = 1.;
     std::vector<std::unique_ptr<Group>> groups;
-    std::vector<unsigned int> group_of, first_row; ///< of the closed pairs
-    std::vector<Directions> directions;            ///< of the closed pairs
-    std::vector<Entry> entries;                    ///< of new groups, by group, node and row
-    CholeskyFactor::Entries triplets;              ///< of the group in work
-    Vector own_values, all_values;
+    std::vector<Entry> entries;     ///< of the group in work, by node and row
+    MatrixFactor::Entries triplets; ///< of the group in work
     Eigen::VectorXd values;
   };
 } // namespace akmon

@@ -2,9 +2,6 @@
 
 #include <akmon/contact/coulomb_faces.h>
 #include <akmon/contact/gmres.h>
-#include <akmon/contact/reproducible_sums.h>
-
-#include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <array>
@@ -33,8 +30,8 @@ namespace akmon
    * almost the same problem. Where it is so small that the faces never settle,
    * a larger one is taken with more iterations (the proximal point method).
    *
-   * Operator has apply(t, y): y = A t (collective). Preconditioner has reinit(faces, c) and then
-   * apply(r, z): z close to (A + curvatures + c)^{-1} r in the free directions.
+   * Operator has apply(t, y): y = A t. Preconditioner has reinit(faces, c) and then apply(r, z): z
+   * close to (A + curvatures + c)^{-1} r in the free directions.
    */
   template <typename Operator, typename Preconditioner>
   class SemismoothNewton
@@ -62,19 +59,30 @@ namespace akmon
       bool converged;
     };
 
-    SemismoothNewton(Operator &op, Preconditioner &precondition, const MPI_Comm communicator)
-      : op(op)
-      , precondition(precondition)
-      , communicator(communicator)
-      , gmres(communicator)
+    /**
+     * @param t      start on entry, solution on return
+     * @param faces  of the solution on return; on entry, if the start is the reference, of that
+     */
+    Result
+    solve(const Problem &new_problem,
+          Operator &new_op,
+          Preconditioner &new_precondition,
+          Vector &t,
+          std::vector<CoulombFace> &faces_of_t)
     {
+      problem      = &new_problem;
+      op           = &new_op;
+      precondition = &new_precondition;
+      std::swap(faces, faces_of_t);
+      const Result result = run(t);
+      std::swap(faces, faces_of_t);
+      return result;
     }
 
-    /// @param t  start on entry, solution on return
+  private:
     Result
-    solve(const Problem &new_problem, Vector &t)
+    run(Vector &t)
     {
-      problem        = &new_problem;
       n_applications = 0;
       n_relaxations  = 25;
       if (!(problem->norm > 0.)) // nothing can move
@@ -102,7 +110,6 @@ namespace akmon
       return {n_applications, residual, residual <= problem->sufficient};
     }
 
-  private:
     // Solve with a compliance and as many references as it takes; returns the residual. While the
     // reference is still to change, a part of the error it makes is good enough.
     double
@@ -141,14 +148,14 @@ namespace akmon
     void
     compute_gradient(const Vector &t)
     {
-      op.apply(t, g);
+      op->apply(t, g);
       ++n_applications;
       drift = 0.;
       for (std::size_t i = 0; i < t.size(); ++i)
         g[i] += problem->b[i] + compliance * (t[i] - reference[i]);
     }
 
-    // Largest weighted component of (t - P(t - a g))/a over all ranks.
+    // Largest weighted component of (t - P(t - a g))/a.
     double
     measure(const Vector &t) const
     {
@@ -158,17 +165,17 @@ namespace akmon
           const auto reached = CoulombFace::project(t[i] - step * g[i], limit_of(i, t[i]));
           residual = std::max(residual, problem->weights[i] * (t[i] - reached).norm() / step);
         }
-      return dealii::Utilities::MPI::max(residual, communicator);
+      return residual;
     }
 
-    // Largest weighted component of c (t - t_0) over all ranks.
+    // Largest weighted component of c (t - t_0).
     double
     error_of_compliance(const Vector &t) const
     {
       double error = 0.;
       for (std::size_t i = 0; i < t.size(); ++i)
         error = std::max(error, compliance * problem->weights[i] * (t[i] - reference[i]).norm());
-      return dealii::Utilities::MPI::max(error, communicator);
+      return error;
     }
 
     void
@@ -303,9 +310,9 @@ namespace akmon
           if ((t[i] - before).norm() > rounding * before.norm())
             lost = std::numeric_limits<double>::max();
         }
-      if (dealii::Utilities::MPI::max(lost, communicator) > 0.05 * problem->tolerance)
+      if (lost > 0.05 * problem->tolerance)
         compute_gradient(t);
-      faces_changed = dealii::Utilities::MPI::max(int(changed), communicator) > 0;
+      faces_changed = changed;
     }
 
     // t + p with g + (A + c) p = 0 in the free components, where turning along a circle counts with
@@ -316,21 +323,17 @@ namespace akmon
       constexpr unsigned int dimension = 80;
 
       double weighted = 0.;
-      squares.resize(1);
-      squares[0].resize(t.size());
       for (std::size_t i = 0; i < t.size(); ++i)
         {
-          r[i]          = -faces[i].restrict_to(g[i]);
-          squares[0][i] = r[i].norm_square();
-          weighted      = std::max(weighted, problem->weights[i] * r[i].norm());
+          r[i]     = -faces[i].restrict_to(g[i]);
+          weighted = std::max(weighted, problem->weights[i] * r[i].norm());
         }
-      const double norm = std::sqrt(reproducible_sums(squares, communicator)[0]);
-      weighted          = dealii::Utilities::MPI::max(weighted, communicator);
+      const double norm = std::sqrt(Gmres::product(r, r));
       const double goal = weighted > 0. ? 0.15 * problem->tolerance / weighted : 1.;
-      precondition.reinit(faces, compliance);
+      precondition->reinit(faces, compliance);
       gmres.solve([&](Vector &p, Vector &of_p, Vector &y) { apply_on_faces(p, of_p, y); },
                   [&](const Vector &v, Vector &z) {
-                    precondition.apply(v, z);
+                    precondition->apply(v, z);
                     for (std::size_t i = 0; i < v.size(); ++i)
                       z[i] = faces[i].restrict_to(z[i]);
                   },
@@ -357,7 +360,7 @@ namespace akmon
           y[i] = (faces[i].curvature * (p[i] * faces[i].along)) * faces[i].along;
           p[i] = faces[i].lift(p[i]);
         }
-      op.apply(p, of_p);
+      op->apply(p, of_p);
       ++n_applications;
       for (std::size_t i = 0; i < p.size(); ++i)
         {
@@ -366,22 +369,20 @@ namespace akmon
         }
     }
 
-    Operator &op;
-    Preconditioner &precondition;
-    const MPI_Comm communicator;
     Gmres gmres;
-    const Problem *problem      = nullptr;
-    unsigned int n_applications = 0;
-    unsigned int n_relaxations  = 0;  ///< in the next relaxation
-    double compliance           = 0.; ///< c
-    double step                 = 0.;
-    bool faces_changed          = true; ///< by the last choice of them
-    double drift                = 0.;   ///< rounding of g since it was computed
-    bool limits_are_given       = false;
+    Operator *op                 = nullptr;
+    Preconditioner *precondition = nullptr;
+    const Problem *problem       = nullptr;
+    unsigned int n_applications  = 0;
+    unsigned int n_relaxations   = 0;  ///< in the next relaxation
+    double compliance            = 0.; ///< c
+    double step                  = 0.;
+    bool faces_changed           = true; ///< by the last choice of them
+    double drift                 = 0.;   ///< rounding of g since it was computed
+    bool limits_are_given        = false;
     std::vector<double> limits; ///< of friction, if given
     std::vector<CoulombFace> faces;
     Vector g; ///< A t + b + c (t - t_0)
     Vector reference, t_best, t_of_limits, r, direction, image;
-    std::vector<std::vector<double>> squares; ///< of r, in a list of their own
   };
 } // namespace akmon

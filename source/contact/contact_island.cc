@@ -1,0 +1,149 @@
+#include <akmon/contact/bonds.h>
+#include <akmon/contact/contact_island.h>
+#include <akmon/contact/coulomb.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace akmon
+{
+  using namespace dealii;
+
+  void
+  ContactIsland::reinit(const std::vector<const ClosingPair *> &members,
+                        const ContactNodes::Id first_common_id,
+                        const Bonds *const bonds,
+                        const double effective_mass_factor)
+  {
+    number_nodes(members, first_common_id);
+    closed_solution = members.size() == 1 && !bonds && moves_alike(pairs.front());
+    delassus.reinit(pairs, mobility, effective_mass_factor);
+    result                     = {0, 0., true};
+    problem.start_is_reference = false;
+    if (closed_solution)
+      return;
+    if (bonds)
+      delassus.set_bonds(*bonds, ids);
+    preconditioner.set_pairs(pairs, delassus, mobility, effective_mass_factor);
+    problem.norm = delassus.norm_bound();
+    problem.friction.clear();
+    problem.weights.clear();
+    tau.clear();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      {
+        const double s = delassus.scale()[i];
+        problem.friction.push_back(members[i]->friction);
+        problem.weights.push_back(s > 0. ? 1. / (s * pairs[i].size) : 0.);
+        tau.push_back(s > 0. ? delassus.frame(i) * pairs[i].force() / s : Tensor<1, 3>());
+      }
+  }
+
+
+  void
+  ContactIsland::number_nodes(const std::vector<const ClosingPair *> &members,
+                              const ContactNodes::Id first_common_id)
+  {
+    ids.clear();
+    for (const ClosingPair *const member : members)
+      ids.insert(ids.end(), member->ids.begin(), member->ids.begin() + member->pair.n_nodes);
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    const auto number = [&](const ContactNodes::Id id) {
+      return static_cast<unsigned int>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+    };
+    std::vector<SymmetricTensor<2, 3>> W(ids.size());
+    pairs.clear();
+    for (const ClosingPair *const member : members)
+      {
+        pairs.push_back(member->pair);
+        for (unsigned int k = 0; k < member->pair.n_nodes; ++k)
+          {
+            const unsigned int node = number(member->ids[k]);
+            pairs.back().nodes[k]   = node;
+            W[node]                 = member->mobility[k];
+          }
+      }
+    mobility.reinit(std::move(W), number(first_common_id));
+  }
+
+
+  // A node alone may be guided along the contact plane; what is held moves with nobody.
+  bool
+  ContactIsland::moves_alike(const ContactPair &pair) const
+  {
+    if (pair.levered || pair.n_rotations > 0)
+      return false;
+    for (unsigned int k = 0; k < pair.n_nodes; ++k)
+      if (const unsigned int node = pair.nodes[k];
+          !mobility.is_held(node) &&
+          !(pair.n_nodes == 1 ? mobility.is_free_along(node, pair.normal) : mobility.is_free(node)))
+        return false;
+    return true;
+  }
+
+
+  void
+  ContactIsland::solve(const std::vector<const ClosingPair *> &members,
+                       const ContactSolver &parameters,
+                       const double tolerance,
+                       Newton &newton)
+  {
+    problem.tolerance  = tolerance;
+    problem.sufficient = std::max(parameters.tolerance, tolerance);
+    problem.limit      = parameters.limit;
+    if (closed_solution)
+      solve_alone(*members.front());
+    else
+      solve_together(members, newton);
+  }
+
+
+  void
+  ContactIsland::solve_alone(const ClosingPair &member)
+  {
+    ContactPair &pair     = pairs.front();
+    const double s        = delassus.scale().front();
+    const auto &moved     = member.free_motion;
+    pair.normal_force     = std::max(0., -s * s * (pair.normal * moved + member.pair.target_gap));
+    const auto friction   = Coulomb::tangential_force(-s * s * pair.tangential_part(moved),
+                                                    member.friction * pair.normal_force);
+    pair.tangential_force = friction.force;
+    pair.sticks           = friction.sticks;
+  }
+
+
+  void
+  ContactIsland::solve_together(const std::vector<const ClosingPair *> &members, Newton &newton)
+  {
+    // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
+    // for gaps (SemismoothNewton).
+    constexpr double compliance     = 1e-7;
+    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
+
+    const auto &s      = delassus.scale();
+    problem.compliance = compliance;
+    problem.b.resize(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      {
+        problem.b[i] = s[i] * (delassus.frame(i) * members[i]->free_motion);
+        problem.b[i][0] += s[i] * members[i]->pair.target_gap;
+      }
+    result                     = newton.solve(problem, delassus, preconditioner, tau, faces);
+    problem.start_is_reference = true; // of the next gaps of the same step
+    if (!preconditioner.is_old())
+      iterations_when_new = result.n_applications;
+    else if (result.n_applications > iterations_when_new + patience)
+      preconditioner.forget();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      {
+        auto &pair            = pairs[i];
+        const auto force      = s[i] * tau[i];
+        pair.normal_force     = force[0];
+        pair.tangential_force = force[1] * delassus.frame(i)[1] + force[2] * delassus.frame(i)[2];
+        // On the circle up to rounding is sliding.
+        pair.sticks = pair.normal_force > 0. &&
+                      pair.tangential_force.norm() <
+                        (1. - 1e-12) * problem.friction[i] * pair.normal_force;
+      }
+  }
+} // namespace akmon
