@@ -156,17 +156,20 @@ namespace akmon
 
   // The curvature that a solution has found is what the next one counts on, and what further
   // rounds would add to it: the secant through this round and the one before tells how much of a
-  // change comes back.
+  // change comes back. Where it comes back with the other sign less of it is more: rounds would
+  // overshoot, or close and open the pair in turns.
   void
   Contact::count_on(ContactPair &pair, const double curvature)
   {
-    constexpr double largest_return = 0.5; // beyond, it is not the pair's own motion that counts
+    constexpr double largest_return = 0.5;  // beyond, it is not the pair's own motion that counts
+    constexpr double least_return   = -20.; // the same
 
     const double change  = curvature - pair.curvature;
     const double returns = pair.correction != 0. ? 1. + (change - pair.change) / pair.correction :
                                                    0.;
     pair.change          = change;
-    pair.correction      = std::abs(returns) < largest_return ? change / (1. - returns) : change;
+    const bool is_own    = returns < largest_return && returns > least_return;
+    pair.correction      = is_own ? change / (1. - returns) : change;
     pair.curvature += pair.correction;
   }
 

@@ -13,48 +13,62 @@ namespace akmon
       {{{-1., -1.}}, {{1., -1.}}, {{1., 1.}}, {{-1., 1.}}}};
 
 
-    struct Tangents
+    // A segment as x(xi, eta) = c + c_xi xi + c_eta eta + c_xi_eta xi eta.
+    struct Bilinear
     {
-      Tensor<1, 3> point, along_xi, along_eta;
+      Tensor<1, 3> c, c_xi, c_eta, c_xi_eta;
+
+      explicit Bilinear(const Segment &x)
+        : c(0.25 * ((x[0] + x[2]) + (x[1] + x[3])))
+        , c_xi(0.25 * ((x[2] - x[0]) + (x[1] - x[3])))
+        , c_eta(0.25 * ((x[2] - x[0]) - (x[1] - x[3])))
+        , c_xi_eta(0.25 * ((x[0] + x[2]) - (x[1] + x[3])))
+      {
+      }
+
+      Tensor<1, 3>
+      along_xi(const double eta) const
+      {
+        return c_xi + eta * c_xi_eta;
+      }
+
+      Tensor<1, 3>
+      along_eta(const double xi) const
+      {
+        return c_eta + xi * c_xi_eta;
+      }
     };
 
 
-    Tangents
-    evaluate(const Segment &segment, const double xi, const double eta)
-    {
-      Tangents t;
-      for (unsigned int k = 0; k < 4; ++k)
-        {
-          const double a = 1. + corners[k][0] * xi, b = 1. + corners[k][1] * eta;
-          t.point += 0.25 * a * b * segment[k];
-          t.along_xi += 0.25 * corners[k][0] * b * segment[k];
-          t.along_eta += 0.25 * corners[k][1] * a * segment[k];
-        }
-      return t;
-    }
-
-
-    // Gauss-Newton on |slave - x(xi, eta)|^2; true if it ends inside the segment.
+    // Newton on |slave - x(xi, eta)|^2, Gauss-Newton where that is not convex; true if it ends
+    // inside the segment.
     bool
     project_to_interior(const Tensor<1, 3> &slave, const Segment &segment, double &xi, double &eta)
     {
       constexpr unsigned int max_iterations = 20;
       constexpr double reach                = 3.; // further out the closest point is on the border
 
+      const Bilinear x(segment);
       xi = eta = 0.;
       for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
         {
-          const Tangents t = evaluate(segment, xi, eta);
-          const auto r     = slave - t.point;
-          const double a = t.along_xi * t.along_xi, b = t.along_xi * t.along_eta,
-                       c = t.along_eta * t.along_eta, p = t.along_xi * r, q = t.along_eta * r;
-          const double determinant = a * c - b * b;
+          const auto along_xi = x.along_xi(eta), along_eta = x.along_eta(xi);
+          const auto r   = slave - x.c - xi * along_xi - eta * x.c_eta;
+          const double a = along_xi * along_xi, along_both = along_xi * along_eta,
+                       c = along_eta * along_eta, p = along_xi * r, q = along_eta * r;
+          double b           = along_both - r * x.c_xi_eta;
+          double determinant = a * c - b * b;
+          if (!(determinant > 0.1 * a * c))
+            {
+              b           = along_both;
+              determinant = a * c - b * b;
+            }
           if (!(determinant > 0.))
             return false;
-          const double d_xi = (c * p - b * q) / determinant, d_eta = (a * q - b * p) / determinant;
-          xi  = std::clamp(xi + d_xi, -reach, reach);
-          eta = std::clamp(eta + d_eta, -reach, reach);
-          if (std::abs(d_xi) + std::abs(d_eta) < 1e-14)
+          const double old_xi = xi, old_eta = eta;
+          xi  = std::clamp(xi + (c * p - b * q) / determinant, -reach, reach);
+          eta = std::clamp(eta + (a * q - b * p) / determinant, -reach, reach);
+          if (std::abs(xi - old_xi) + std::abs(eta - old_eta) < 1e-14)
             break;
         }
       return std::abs(xi) <= 1. && std::abs(eta) <= 1.;
@@ -129,8 +143,8 @@ namespace akmon
   Tensor<1, 3>
   segment_normal(const Segment &segment, const double xi, const double eta)
   {
-    const Tangents t  = evaluate(segment, xi, eta);
-    const auto normal = cross_product_3d(t.along_xi, t.along_eta);
+    const Bilinear x(segment);
+    const auto normal = cross_product_3d(x.along_xi(eta), x.along_eta(xi));
     return normal / normal.norm();
   }
 

@@ -22,7 +22,7 @@ namespace
     };
     const Field r = {Vector({1., 6., 7.}), Vector({2., 10., 4.})};
     Field x(2), image(2);
-    Gmres gmres(MPI_COMM_SELF);
+    Gmres gmres;
     gmres.solve(
       apply, [](const Field &v, Field &z) { z = v; }, r, 1e-13, 6);
     gmres.combine(x, image);
