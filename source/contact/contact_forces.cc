@@ -106,7 +106,8 @@ namespace akmon
     coupled.solve(dx_free);
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
-        if (Utilities::MPI::max(follow_partners(state), discretization.communicator()) <= 1.)
+        const double excess = follow_partners(state, round == 1);
+        if (Utilities::MPI::max(excess, discretization.communicator()) <= 1.)
           return;
         set_target_gaps(state);
         coupled.solve(dx_free);
@@ -135,7 +136,7 @@ namespace akmon
 
   // The gap of a pair in the configuration x_reached; false if it has no partner there.
   bool
-  Contact::reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
+  Contact::reached_gap(ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
   {
     if (pair.of_edges)
       return edge_searches[pair.search].gap_at(x_reached, pair, gap);
@@ -176,9 +177,10 @@ namespace akmon
 
   // While segments turn under a slave, surfaces are curved or bodies rotate, n . G dx + g misses a
   // part of second order of the gap that the step reaches. Measures it for all pairs that may
-  // close; returns how far it is from what the solution counted on, over what is allowed.
+  // close, or for those that the last solution has moved otherwise than the one before; returns how
+  // far it is from what the solution counted on, over what is allowed.
   double
-  Contact::follow_partners(const NodalState &state)
+  Contact::follow_partners(const NodalState &state, const bool all_pairs)
   {
     // Of the cell size. Rigid shapes are exact: so are gaps from them; normals of edges turn fast.
     constexpr double of_faces = 1e-7, of_edges = 1e-10, of_rigid = 1e-12;
@@ -189,27 +191,36 @@ namespace akmon
     x_reached              = x;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       x_reached.add(i, dx_free[i] + dx_contact[i]);
-    const auto poses = reached_poses(&dx_contact);
+    const auto poses      = reached_poses(&dx_contact);
+    const auto moves_anew = [&](const ContactPair &pair) {
+      return !pair.settled || pair.wanders ||
+             std::any_of(pair.nodes.begin(),
+                         pair.nodes.begin() + pair.n_nodes,
+                         [&](const auto node) { return dx_contact[node] != dx_followed[node]; });
+    };
 
     double largest = 0.;
     for (ContactPair *const pair : coupled.participants())
       {
         double reached;
-        if (!reached_gap(*pair, poses, reached))
+        if (!(all_pairs || moves_anew(*pair)) || !reached_gap(*pair, poses, reached))
           continue;
         const auto motion      = pair->relative(dx_free) + pair->relative(dx_contact);
         const double bound     = 0.5 * motion.norm(); // whatever is beyond is another partner
         const double linear    = pair->gap + pair->normal * motion;
         const double curvature = std::clamp(reached - linear, -bound, bound);
         const double allowed   = std::min(0., pair->gap + release(*pair, state));
+        const double excess    = std::abs(curvature - pair->curvature) /
+                              (pair->size * (pair->interface >= contacts.size() ? of_rigid :
+                                             pair->of_edges                     ? of_edges :
+                                                                                  of_faces));
         if (pair->normal_force > 0. || linear + curvature < allowed)
-          largest = std::max(largest,
-                             std::abs(curvature - pair->curvature) /
-                               (pair->size * (pair->interface >= contacts.size() ? of_rigid :
-                                              pair->of_edges                     ? of_edges :
-                                                                                   of_faces)));
-        count_on(*pair, curvature);
+          largest = std::max(largest, excess);
+        pair->settled = excess <= 1.;
+        if (!pair->settled)
+          count_on(*pair, curvature);
       }
+    dx_followed = dx_contact;
     return largest;
   }
 

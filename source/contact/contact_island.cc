@@ -82,6 +82,19 @@ namespace akmon
   }
 
 
+  bool
+  ContactIsland::is_solved_for(const std::vector<const ClosingPair *> &members) const
+  {
+    return std::equal(pairs.begin(),
+                      pairs.end(),
+                      members.begin(),
+                      members.end(),
+                      [](const ContactPair &pair, const ClosingPair *const member) {
+                        return pair.target_gap == member->pair.target_gap;
+                      });
+  }
+
+
   void
   ContactIsland::solve(const std::vector<const ClosingPair *> &members,
                        const ContactSolver &parameters,
@@ -91,6 +104,8 @@ namespace akmon
     problem.tolerance  = tolerance;
     problem.sufficient = std::max(parameters.tolerance, tolerance);
     problem.limit      = parameters.limit;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      pairs[i].target_gap = members[i]->pair.target_gap;
     if (closed_solution)
       solve_alone(*members.front());
     else

@@ -22,8 +22,8 @@ namespace akmon
   }
 
 
-  const ContactNodes::Field &
-  ContactResponse::increments()
+  void
+  ContactResponse::update()
   {
     loaded.clear();
     for (ContactPair *const pair : pairs)
@@ -47,6 +47,5 @@ namespace akmon
     if (bonds && bonds->exist())
       bonds->project(field);
     nodes.update_ghosts(field);
-    return field;
   }
 } // namespace akmon

@@ -32,9 +32,8 @@ namespace akmon
                                   Partner partner,
                                   std::vector<ContactPair> &pairs) const
   {
-    constexpr double nearly_flat = 0.99875; // cosine of 0.05
-    constexpr double part        = 0.25;    // of the reach: what slaves slide in a step at most
-    constexpr double in_front    = -1e-6;   // of the cell size, for rounding: else no valley
+    constexpr double part     = 0.25;  // of the reach: what slaves slide in a step at most
+    constexpr double in_front = -1e-6; // of the cell size, for rounding: else no valley
 
     if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
       return;
@@ -55,10 +54,7 @@ namespace akmon
             continue;
           seen.push_back(neighbour.face);
           const Segment corners = segment(x, master);
-          const auto area       = area_vector(corners);
-          const auto middle     = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-          if (area * normal > nearly_flat * area.norm() || (middle - foot) * normal <= 0. ||
-              !opposes(master, area, slave))
+          if (!forms_valley(corners, foot, normal) || !opposes(master, area_vector(corners), slave))
             continue;
           neighbour.projection = project(point, corners);
           neighbour.normal     = face_normal(x, neighbour);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace akmon
 {
@@ -87,6 +88,7 @@ namespace akmon
                                            friction_of_all.end(),
                                            [](const double mu) { return mu > 0.; });
     friction_somewhere = Utilities::MPI::max(int(friction_here), nodes.get_communicator()) > 0;
+    has_begun          = false;
     for (auto &[key, island] : islands)
       island->of_this_step = false;
   }
@@ -96,17 +98,23 @@ namespace akmon
   CoupledSolver::solve(const ContactNodes::Field &dx_free)
   {
     const double tolerance = tolerance_for(dx_free);
-    for (auto &[key, island] : islands) // what has failed would do so again
-      island->is_solved = island->of_this_step && !island->get_result().converged;
-    activate(dx_free, nullptr, 0.);
+    bool join              = activate(dx_free, nullptr, 0.) || !has_begun;
+    has_begun              = true;
     do
       {
-        collect_closing_pairs(dx_free);
-        divide_into_islands();
+        if (join)
+          {
+            collect_closing_pairs(dx_free);
+            divide_into_islands();
+          }
+        else
+          take_target_gaps();
         solve_islands(tolerance);
         bring_forces_home();
+        response.update();
+        join = activate(dx_free, &response.increments(), tolerance);
       }
-    while (activate(dx_free, &response.increments(), tolerance));
+    while (join);
   }
 
 
@@ -172,12 +180,30 @@ namespace akmon
             }
           closing.push_back(own);
         }
-    if (!nodes.is_parallel())
-      return;
-    closing = gather(closing, communicator);
-    std::sort(closing.begin(), closing.end(), [](const auto &a, const auto &b) {
-      return a.pair.key() < b.pair.key();
-    });
+    const auto gathered = gather(closing, communicator);
+    order.resize(gathered.size());
+    std::iota(order.begin(), order.end(), 0U);
+    if (nodes.is_parallel())
+      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+        return gathered[a].pair.key() < gathered[b].pair.key();
+      });
+    closing.clear();
+    for (const unsigned int i : order)
+      closing.push_back(gathered[i]);
+  }
+
+
+  // All else is as it was when the pairs were collected.
+  void
+  CoupledSolver::take_target_gaps()
+  {
+    std::vector<double> gaps;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (active[i])
+        gaps.push_back(all[i]->target_gap);
+    gaps = gather(gaps, nodes.get_communicator());
+    for (std::size_t i = 0; i < order.size(); ++i)
+      closing[i].pair.target_gap = gaps[order[i]];
   }
 
 
@@ -195,21 +221,22 @@ namespace akmon
   void
   CoupledSolver::divide_into_islands()
   {
-    const ContactNodes::Id all_bonds = numbers::invalid_dof_index;
-    std::vector<std::pair<ContactNodes::Id, unsigned int>> at_nodes;
+    const ContactNodes::Id n_ids = nodes.first_common_id() + nodes.size() - nodes.first_common();
+    std::vector<unsigned int> last_at(n_ids + 1, numbers::invalid_unsigned_int);
+    UnitedSets sets(closing.size());
+    const auto meet = [&](const unsigned int i, const ContactNodes::Id node) {
+      if (last_at[node] != numbers::invalid_unsigned_int)
+        sets.unite(last_at[node], i);
+      last_at[node] = i;
+    };
     for (unsigned int i = 0; i < closing.size(); ++i)
       {
         for (unsigned int k = 0; k < closing[i].pair.n_nodes; ++k)
           if (trace(closing[i].mobility[k]) > 0.)
-            at_nodes.emplace_back(closing[i].ids[k], i);
+            meet(i, closing[i].ids[k]);
         if (is_bonded(closing[i]))
-          at_nodes.emplace_back(all_bonds, i);
+          meet(i, n_ids);
       }
-    std::sort(at_nodes.begin(), at_nodes.end());
-    UnitedSets sets(closing.size());
-    for (std::size_t i = 1; i < at_nodes.size(); ++i)
-      if (at_nodes[i].first == at_nodes[i - 1].first)
-        sets.unite(at_nodes[i - 1].second, at_nodes[i].second);
 
     const unsigned int rank = Utilities::MPI::this_mpi_process(nodes.get_communicator());
     std::map<Key, std::unique_ptr<Island>> old = std::move(islands);
@@ -249,7 +276,10 @@ namespace akmon
       {
         const double n = island->has_closed_solution() ? 0. : island->members.size();
         sums[1] += n;
-        if (island->is_solved)
+        // What has failed would do so again.
+        island->is_new = !island->is_solved || (island->get_result().converged &&
+                                                !island->is_solved_for(island->members));
+        if (!island->is_new)
           continue;
         island->solve(island->members, parameters, tolerance, newton);
         island->is_solved  = true;
@@ -274,7 +304,7 @@ namespace akmon
     const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
     std::vector<Solved> solved;
     for (const auto &[key, island] : islands)
-      for (std::size_t i = 0; i < island->members.size(); ++i)
+      for (std::size_t i = 0; i < island->members.size() && island->is_new; ++i)
         {
           const ContactPair &pair = island->get_pairs()[i];
           solved.push_back({island->members[i]->rank,
@@ -283,9 +313,7 @@ namespace akmon
                             pair.tangential_force,
                             pair.sticks});
         }
-    if (nodes.is_parallel())
-      solved = gather(solved, communicator);
-    for (const Solved &of_pair : solved)
+    for (const Solved &of_pair : gather(solved, communicator))
       if (of_pair.rank == rank)
         {
           ContactPair &pair     = *all[of_pair.number];

@@ -35,6 +35,7 @@ namespace akmon
     mass_factor = new_mass_factor;
     for (const auto &group : groups)
       group->old = true;
+    closed.clear();
   }
 
 
@@ -51,15 +52,18 @@ namespace akmon
     if (shift != new_shift)
       forget();
     shift = new_shift;
-    std::vector<unsigned int> closed;
+    std::vector<unsigned int> now_closed;
     for (unsigned int i = 0; i < pairs->size(); ++i)
       if (is_closed(i, faces))
-        closed.push_back(i);
+        now_closed.push_back(i);
+    if (!groups.empty() && now_closed == closed && all_serve(faces))
+      return;
+    closed = std::move(now_closed);
     std::map<Key, std::unique_ptr<Group>> old_groups;
     for (auto &group : groups)
       old_groups[group->members.front().key] = std::move(group);
     groups.clear();
-    for (const auto &list : divide(closed))
+    for (const auto &list : divide())
       {
         const auto old = old_groups.find((*pairs)[list.front()].key());
         if (old != old_groups.end() && serves(*old->second, list, faces))
@@ -84,9 +88,21 @@ namespace akmon
   }
 
 
+  // Of the same closed pairs.
+  bool
+  PairPreconditioner::all_serve(const std::vector<CoulombFace> &faces) const
+  {
+    return std::all_of(groups.begin(), groups.end(), [&](const auto &group) {
+      return std::all_of(group->members.begin(), group->members.end(), [&](const Member &member) {
+        return alike(member.face, faces[member.pair]);
+      });
+    });
+  }
+
+
   // Lists of closed pairs that share nodes, directly or through others.
   std::vector<std::vector<unsigned int>>
-  PairPreconditioner::divide(const std::vector<unsigned int> &closed) const
+  PairPreconditioner::divide() const
   {
     UnitedSets sets(closed.size());
     std::vector<unsigned int> last_at_node(mobility->size(), numbers::invalid_unsigned_int);

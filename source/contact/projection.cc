@@ -45,8 +45,9 @@ namespace akmon
     bool
     project_to_interior(const Tensor<1, 3> &slave, const Segment &segment, double &xi, double &eta)
     {
-      constexpr unsigned int max_iterations = 20;
-      constexpr double reach                = 3.; // further out the closest point is on the border
+      constexpr unsigned int max_iterations = 20, enough_to_tell = 4;
+      constexpr double reach = 3.; // further out the closest point is on the border
+      constexpr double far   = 2.; // from where iterations do not come back
 
       const Bilinear x(segment);
       xi = eta = 0.;
@@ -58,7 +59,8 @@ namespace akmon
                        c = along_eta * along_eta, p = along_xi * r, q = along_eta * r;
           double b           = along_both - r * x.c_xi_eta;
           double determinant = a * c - b * b;
-          if (!(determinant > 0.1 * a * c))
+          const bool convex  = determinant > 0.1 * a * c;
+          if (!convex)
             {
               b           = along_both;
               determinant = a * c - b * b;
@@ -68,8 +70,11 @@ namespace akmon
           const double old_xi = xi, old_eta = eta;
           xi  = std::clamp(xi + (c * p - b * q) / determinant, -reach, reach);
           eta = std::clamp(eta + (a * q - b * p) / determinant, -reach, reach);
-          if (std::abs(xi - old_xi) + std::abs(eta - old_eta) < 1e-14)
+          // Newton's next change would be of the order of the square of this one.
+          if (std::abs(xi - old_xi) + std::abs(eta - old_eta) < (convex ? 1e-8 : 1e-14))
             break;
+          if (iteration >= enough_to_tell && std::max(std::abs(xi), std::abs(eta)) > far)
+            return false;
         }
       return std::abs(xi) <= 1. && std::abs(eta) <= 1.;
     }

@@ -8,6 +8,20 @@ namespace akmon
 {
   using namespace dealii;
 
+  // Whether a face beside the one with the normal at the foot rises in front of it.
+  bool
+  SurfaceSearch::forms_valley(const Segment &corners,
+                              const Tensor<1, 3> &foot,
+                              const Tensor<1, 3> &normal)
+  {
+    constexpr double nearly_flat = 0.99875; // cosine of 0.05
+
+    const auto area   = area_vector(corners);
+    const auto middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    return area * normal <= nearly_flat * area.norm() && (middle - foot) * normal > 0.;
+  }
+
+
   Segment
   SurfaceSearch::segment(const ContactNodes::Field &x, const MasterFace &face) const
   {
@@ -111,41 +125,56 @@ namespace akmon
 
 
   bool
-  SurfaceSearch::gap_at(const ContactNodes::Field &x, const ContactPair &pair, double &gap) const
+  SurfaceSearch::gap_at(const ContactNodes::Field &x, ContactPair &pair, double &gap) const
   {
     const unsigned int slave = pair.row;
-    const auto point         = x[slaves[slave].number];
     Partner partner;
     partner.face       = pair.face;
-    partner.projection = project(point, segment(x, masters[pair.face]));
+    partner.projection = project(x[slaves[slave].number], segment(x, masters[pair.face]));
+    if (partner.projection.feature != Projection::Feature::face)
+      slide_to_neighbour(x, slave, pair.shares_corner, partner);
+    pair.wanders = partner.projection.feature != Projection::Feature::face ||
+                   partner.face != pair.face;
     if (pair.shares_corner)
       {
         gap = face_normal(x, partner) * partner.projection.offset;
         return true;
       }
-    if (partner.projection.feature != Projection::Feature::face)
-      {
-        // A step leads no further than to the neighbours.
-        double best = partner.projection.offset.norm();
-        for (const unsigned int node : masters[pair.face].nodes)
-          for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
-            {
-              const auto &face   = masters[faces_at[i]];
-              const auto corners = segment(x, face);
-              if (faces_at[i] == pair.face || !opposes(face, area_vector(corners), slave))
-                continue;
-              const auto projection = project(point, corners);
-              if (projection.offset.norm() < best)
-                {
-                  best               = projection.offset.norm();
-                  partner.face       = faces_at[i];
-                  partner.projection = projection;
-                }
-            }
-      }
     const bool found = complete(x, slave, partner);
     gap              = partner.gap;
     return found;
+  }
+
+
+  // A step leads no further than to the neighbours. The faces of a corner or valley that the slave
+  // has pairs with count for themselves.
+  void
+  SurfaceSearch::slide_to_neighbour(const ContactNodes::Field &x,
+                                    const unsigned int slave,
+                                    const bool across_ridges_only,
+                                    Partner &partner) const
+  {
+    const auto point        = x[slaves[slave].number];
+    const unsigned int left = partner.face;
+    const auto foot         = point - partner.projection.offset;
+    const auto normal       = face_normal(x, partner);
+    double best             = partner.projection.offset.norm();
+    for (const unsigned int node : masters[left].nodes)
+      for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
+        {
+          const auto &face   = masters[faces_at[i]];
+          const auto corners = segment(x, face);
+          if (faces_at[i] == left || !opposes(face, area_vector(corners), slave) ||
+              (across_ridges_only && forms_valley(corners, foot, normal)))
+            continue;
+          const auto projection = project(point, corners);
+          if (projection.offset.norm() < best)
+            {
+              best               = projection.offset.norm();
+              partner.face       = faces_at[i];
+              partner.projection = projection;
+            }
+        }
   }
 
 

@@ -237,13 +237,13 @@ namespace akmon
     void
     solve_coupled(const NodalState &state);
     double
-    follow_partners(const NodalState &state);
+    follow_partners(const NodalState &state, const bool all_pairs);
     static void
     count_on(ContactPair &pair, const double curvature);
     std::vector<Pose>
     reached_poses(const ContactNodes::Field *response) const;
     bool
-    reached_gap(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const;
+    reached_gap(ContactPair &pair, const std::vector<Pose> &poses, double &gap) const;
     void
     push_out(const NodalState &state, const double effective_mass_factor);
     template <typename Visit>
@@ -292,6 +292,7 @@ namespace akmon
     bool prepared            = false;
 
     ContactNodes::Field x, dx, dx_free, x_reached;
+    ContactNodes::Field dx_followed; ///< increments by contact that gaps have been measured for
     std::vector<ContactPair> pairs;
     std::vector<ContactNodes::Contribution> contributions;
     std::vector<NodalForce> forces;

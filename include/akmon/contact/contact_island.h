@@ -58,6 +58,10 @@ namespace akmon
           const double tolerance,
           Newton &newton);
 
+    /// Whether the last solution is for the target gaps of the same members.
+    bool
+    is_solved_for(const std::vector<const ClosingPair *> &members) const;
+
     /// With the forces of the last solution.
     const std::vector<ContactPair> &
     get_pairs() const

@@ -25,9 +25,16 @@ namespace akmon
     void
     reinit(const std::vector<ContactPair *> &pairs, const double mass_factor);
 
-    /// At all contact nodes, for the forces the pairs have now (collective).
+    /// For the forces the pairs have now (collective).
+    void
+    update();
+
+    /// At all contact nodes, since the last update.
     const ContactNodes::Field &
-    increments();
+    increments() const
+    {
+      return field;
+    }
 
   private:
     const ContactNodes &nodes;

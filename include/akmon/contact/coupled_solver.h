@@ -51,9 +51,9 @@ namespace akmon
     void
     solve(const ContactNodes::Field &dx_free);
 
-    /// Nodal increments that the pairs' forces cause, at all contact nodes (collective).
+    /// Nodal increments that the last solution's forces cause, at all contact nodes.
     const ContactNodes::Field &
-    increments()
+    increments() const
     {
       return response.increments();
     }
@@ -98,7 +98,8 @@ namespace akmon
     {
       std::vector<const ClosingPair *> members;
       bool of_this_step = false;
-      bool is_solved    = false; ///< for the present target gaps, or will not be
+      bool is_solved    = false; ///< in this step
+      bool is_new       = false; ///< its solution, to the ranks of its pairs
     };
 
     // What a solution tells the rank of a pair.
@@ -127,6 +128,8 @@ namespace akmon
     void
     collect_closing_pairs(const ContactNodes::Field &dx_free);
     void
+    take_target_gaps();
+    void
     divide_into_islands();
     bool
     is_bonded(const ClosingPair &closing) const;
@@ -146,7 +149,9 @@ namespace akmon
     std::vector<double> friction_of_all;
     std::vector<bool> active; ///< by number in `all`
     double mass_factor = 1.;
-    std::vector<ClosingPair> closing;               ///< active pairs of all ranks, sorted by key
+    bool has_begun     = false;       ///< to solve in this step
+    std::vector<unsigned int> order;  ///< of the closing pairs: that they came in from the ranks
+    std::vector<ClosingPair> closing; ///< active pairs of all ranks, sorted by key
     std::map<Key, std::unique_ptr<Island>> islands; ///< that this rank solves, by their first pair
     bool friction_somewhere = false;
     double n_applications   = 0.; ///< to a pair, in all islands

@@ -67,6 +67,8 @@ namespace akmon
 
     double curvature = 0.;               ///< second-order part of the gap the step reaches; length
     double change = 0., correction = 0.; ///< what it lacked last in this step, and got; length
+    bool settled        = false;         ///< it lacked nothing that counts
+    bool wanders        = false;         ///< the step leads to another face
     double target_gap   = 0.;            ///< gap of which no more may be lost in this step; length
     double normal_force = 0.;            ///< t_n, on the slave along the normal; force
     dealii::Tensor<1, 3> tangential_force; ///< t_tau, on the slave; force

@@ -111,8 +111,10 @@ namespace akmon
 
     bool
     is_closed(const unsigned int pair, const std::vector<CoulombFace> &faces) const;
+    bool
+    all_serve(const std::vector<CoulombFace> &faces) const;
     std::vector<std::vector<unsigned int>>
-    divide(const std::vector<unsigned int> &closed) const;
+    divide() const;
     bool
     serves(const Group &group,
            const std::vector<unsigned int> &list,
@@ -131,6 +133,7 @@ namespace akmon
     const Delassus *delassus              = nullptr;
     const Mobility *mobility              = nullptr;
     double mass_factor                    = 1.;
+    std::vector<unsigned int> closed; ///< numbers of the pairs in the groups
     std::vector<std::unique_ptr<Group>> groups;
     std::vector<Entry> entries;     ///< of the group in work, by node and row
     MatrixFactor::Entries triplets; ///< of the group in work

@@ -81,10 +81,10 @@ namespace akmon
 
     /**
      * The gap of a pair's slave in another configuration, which a step has led to from the one the
-     * pair was found in; false if it has no partner there.
+     * pair was found in; false if it has no partner there. Tells whether that is another face.
      */
     bool
-    gap_at(const ContactNodes::Field &x, const ContactPair &pair, double &gap) const;
+    gap_at(const ContactNodes::Field &x, ContactPair &pair, double &gap) const;
 
     /// Owned and ghost faces of both surfaces.
     const std::vector<BoundaryFace> &
@@ -179,6 +179,15 @@ namespace akmon
     opposes(const MasterFace &face,
             const dealii::Tensor<1, 3> &normal,
             const unsigned int slave) const;
+    static bool
+    forms_valley(const Segment &corners,
+                 const dealii::Tensor<1, 3> &foot,
+                 const dealii::Tensor<1, 3> &normal);
+    void
+    slide_to_neighbour(const ContactNodes::Field &x,
+                       const unsigned int slave,
+                       const bool across_ridges_only,
+                       Partner &partner) const;
     dealii::Tensor<1, 3>
     face_normal(const ContactNodes::Field &x, const Partner &partner) const;
     bool
