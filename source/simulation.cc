@@ -356,7 +356,8 @@ namespace akmon
     if (solver.unconverged > 0.)
       screen.warning("contact: " + shortest_text(solver.unconverged) + " of " +
                      shortest_text(state.step) +
-                     " steps ended above the solver's tolerance, the worst with gaps wrong by " +
+                     " steps ended above the solver's tolerance, the worst with friction or gaps "
+                     "wrong by " +
                      shortest_text(solver.residual) + " of the cell size");
     Summary summary;
     summary.set("title", parameters.title);

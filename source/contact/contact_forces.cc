@@ -1,5 +1,6 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/edge_search.h>
 #include <akmon/contact/nodal_sums.h>
 #include <akmon/contact/reproducible_sums.h>
@@ -83,8 +84,8 @@ namespace akmon
         friction.reserve(pairs.size());
         for (const auto &pair : pairs)
           friction.push_back(friction_coefficient(pair, state));
-        coupled.begin_step(pairs, dx_free, friction, effective_mass_factor);
-        if (!coupled.has_friction())
+        coupled->begin_step(pairs, dx_free, friction, effective_mass_factor);
+        if (!coupled->has_friction())
           solve_coupled(state);
         return;
       }
@@ -103,14 +104,14 @@ namespace akmon
   {
     constexpr unsigned int most_rounds = 16;
 
-    coupled.solve(dx_free);
+    coupled->solve(dx_free);
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
         const double excess = follow_partners(state, round == 1);
         if (Utilities::MPI::max(excess, discretization.communicator()) <= 1.)
           return;
         set_target_gaps(state);
-        coupled.solve(dx_free);
+        coupled->solve(dx_free);
       }
   }
 
@@ -187,7 +188,7 @@ namespace akmon
 
     if (searches.empty() && bodies.empty())
       return 0.;
-    const auto &dx_contact = coupled.increments();
+    const auto &dx_contact = coupled->increments();
     x_reached              = x;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       x_reached.add(i, dx_free[i] + dx_contact[i]);
@@ -200,7 +201,7 @@ namespace akmon
     };
 
     double largest = 0.;
-    for (ContactPair *const pair : coupled.participants())
+    for (ContactPair *const pair : coupled->participants())
       {
         double reached;
         if (!(all_pairs || moves_anew(*pair)) || !reached_gap(*pair, poses, reached))
@@ -297,7 +298,7 @@ namespace akmon
   {
     if (solver.type == ContactSolver::Type::coupled)
       {
-        if (coupled.has_friction())
+        if (coupled->has_friction())
           solve_coupled(state);
         return;
       }

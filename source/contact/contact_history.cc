@@ -1,5 +1,6 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/coupled_solver.h>
 
 #include <algorithm>
 
@@ -109,6 +110,6 @@ namespace akmon
     travelled = 0.;
     for (auto &search : obstacle_searches)
       search.forget_rests();
-    coupled.start_afresh();
+    coupled->start_afresh();
   }
 } // namespace akmon

@@ -1,5 +1,6 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/coupled_solver.h>
 #include <akmon/output/history.h>
 #include <akmon/parameters.h>
 
@@ -29,9 +30,9 @@ namespace akmon
   Contact::report(const NodalState &state) const
   {
     ContactReport report;
-    report.iterations = coupled.iterations();
-    report.converged  = coupled.converged();
-    report.residual   = coupled.residual();
+    report.iterations = coupled->iterations();
+    report.converged  = coupled->converged();
+    report.residual   = coupled->residual();
     report.interfaces.resize(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
       {

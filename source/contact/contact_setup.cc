@@ -1,5 +1,6 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/edge_search.h>
 #include <akmon/parameters.h>
 
@@ -138,7 +139,7 @@ namespace akmon
     , areas(discretization.n_owned_nodes, contact_faces())
     , nodes(discretization, surface_nodes, rigid_nodes.n)
     , bonds(std::make_unique<Bonds>(discretization, contacts, conditions))
-    , coupled(solver, nodes, mobility, bonds.get())
+    , coupled(std::make_unique<CoupledSolver>(solver, nodes, mobility, bonds.get()))
   {
     bonds->set_numbers(nodes);
     if (solver.type == ContactSolver::Type::penalty && !rigid_touches.empty())

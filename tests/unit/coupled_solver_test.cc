@@ -1,3 +1,5 @@
+#include <akmon/contact/coupled_solver.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>

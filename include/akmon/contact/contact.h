@@ -3,7 +3,6 @@
 #include <akmon/checkpoint/checkpoint.h>
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
-#include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/nodal_areas.h>
 #include <akmon/contact/obstacle_search.h>
@@ -20,6 +19,7 @@
 namespace akmon
 {
   class Bonds;
+  class CoupledSolver;
   class EdgeSearch;
 
   /// What contact did at an interface, over this rank's pairs. Forces act on the surfaces named as
@@ -285,7 +285,7 @@ namespace akmon
     ContactNodes nodes;
     Mobility mobility;
     const std::unique_ptr<Bonds> bonds;
-    CoupledSolver coupled;
+    const std::unique_ptr<CoupledSolver> coupled;
     double moved             = 0.; ///< bound of relative motion since candidates were built
     double travelled         = 0.; ///< the same since the beginning
     double seconds_of_search = 0.;

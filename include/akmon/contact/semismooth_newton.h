@@ -56,7 +56,7 @@ namespace akmon
     {
       unsigned int n_applications; ///< of A
       double residual;             ///< largest weighted component of the projected gradient
-      bool converged;
+      bool converged;              ///< else w_n is right for friction limits that are not
     };
 
     /**
@@ -83,8 +83,9 @@ namespace akmon
     Result
     run(Vector &t)
     {
-      n_applications = 0;
-      n_relaxations  = 25;
+      n_applications    = 0;
+      most_applications = problem->limit;
+      n_relaxations     = 25;
       if (!(problem->norm > 0.)) // nothing can move
         return {0, 0., true};
       constexpr double stiffer = 1e3; // where faces do not settle
@@ -100,14 +101,41 @@ namespace akmon
       else
         reference.assign(n, CoulombFace::Force());
       double residual = solve_with(problem->compliance, 4, false, t);
-      if (residual > problem->sufficient && n_applications < problem->limit)
+      if (residual > problem->sufficient && n_applications < most_applications)
         {
           reference = t;
           residual  = solve_with(stiffer * problem->compliance, 20, true, t);
         }
+      const bool converged = residual <= problem->sufficient;
+      if (!converged)
+        close_gaps(t);
       for (std::size_t i = 0; i < n; ++i) // what the tolerance left
         t[i] = CoulombFace::project(t[i], limit_of(i, t[i]));
-      return {n_applications, residual, residual <= problem->sufficient};
+      limits_are_given = false;
+      return {n_applications, residual, converged};
+    }
+
+    // Where no solution is found friction is what is wrong, not gaps: limits are given by the last
+    // normal forces, which leaves a convex problem, and stay so.
+    void
+    close_gaps(Vector &t)
+    {
+      most_applications += problem->limit;
+      give_limits(t);
+      limits_stay = true;
+      reference   = t;
+      solve_with(problem->compliance, 20, true, t);
+      limits_stay = false;
+    }
+
+    void
+    give_limits(const Vector &t)
+    {
+      limits_are_given = false;
+      limits.resize(t.size());
+      for (std::size_t i = 0; i < t.size(); ++i)
+        limits[i] = limit_of(i, t[i]);
+      limits_are_given = true;
     }
 
     // Solve with a compliance and as many references as it takes; returns the residual. While the
@@ -200,16 +228,15 @@ namespace akmon
       const unsigned int patience    = thoroughly ? 8 : 4;
       const unsigned int most_limits = thoroughly ? 50 : 6;
 
+      if (limits_stay)
+        return find_faces(t, enough, patience_of_limits, thoroughly);
       limits_are_given = false;
       double residual  = find_faces(t, enough, patience, thoroughly);
       for (unsigned int k = 0;
-           k < most_limits && residual > enough && n_applications < problem->limit;
+           k < most_limits && residual > enough && n_applications < most_applications;
            ++k)
         {
-          limits.resize(t.size());
-          for (std::size_t i = 0; i < t.size(); ++i)
-            limits[i] = limit_of(i, t[i]);
-          limits_are_given            = true;
+          give_limits(t);
           residual                    = measure(t);
           const double while_changing = std::max(enough, part * residual);
           if (find_faces(t, while_changing, patience_of_limits, thoroughly) > while_changing &&
@@ -259,13 +286,13 @@ namespace akmon
                   t_best     = t;
                   since_best = 0;
                 }
-              if (n_applications >= problem->limit)
+              if (n_applications >= most_applications)
                 break;
               newton_step(t, faces_changed && !thoroughly ? while_changing : attempt.reduction);
             }
           t = t_best;
           compute_gradient(t);
-          if (!thoroughly || n_applications >= problem->limit)
+          if (!thoroughly || n_applications >= most_applications)
             break;
           if (&attempt != attempts.data()) // exact systems may be all that was missing
             relax(t);
@@ -280,7 +307,7 @@ namespace akmon
     {
       constexpr unsigned int most = 400;
 
-      for (unsigned int k = 0; k < n_relaxations && n_applications < problem->limit; ++k)
+      for (unsigned int k = 0; k < n_relaxations && n_applications < most_applications; ++k)
         {
           for (std::size_t i = 0; i < t.size(); ++i)
             t[i] = CoulombFace::project(t[i] - step * g[i], limit_of(i, t[i]));
@@ -339,7 +366,8 @@ namespace akmon
                   },
                   r,
                   std::max(reduction, goal) * norm,
-                  std::min(dimension, problem->limit - std::min(n_applications, problem->limit)));
+                  std::min(dimension,
+                           most_applications - std::min(n_applications, most_applications)));
       gmres.combine(direction, image);
       for (std::size_t i = 0; i < t.size(); ++i)
         {
@@ -370,16 +398,17 @@ namespace akmon
     }
 
     Gmres gmres;
-    Operator *op                 = nullptr;
-    Preconditioner *precondition = nullptr;
-    const Problem *problem       = nullptr;
-    unsigned int n_applications  = 0;
-    unsigned int n_relaxations   = 0;  ///< in the next relaxation
-    double compliance            = 0.; ///< c
-    double step                  = 0.;
-    bool faces_changed           = true; ///< by the last choice of them
-    double drift                 = 0.;   ///< rounding of g since it was computed
-    bool limits_are_given        = false;
+    Operator *op                   = nullptr;
+    Preconditioner *precondition   = nullptr;
+    const Problem *problem         = nullptr;
+    unsigned int most_applications = 0;
+    unsigned int n_applications    = 0;
+    unsigned int n_relaxations     = 0;  ///< in the next relaxation
+    double compliance              = 0.; ///< c
+    double step                    = 0.;
+    bool faces_changed             = true; ///< by the last choice of them
+    double drift                   = 0.;   ///< rounding of g since it was computed
+    bool limits_are_given = false, limits_stay = false;
     std::vector<double> limits; ///< of friction, if given
     std::vector<CoulombFace> faces;
     Vector g; ///< A t + b + c (t - t_0)
