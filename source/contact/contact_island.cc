@@ -103,7 +103,8 @@ namespace akmon
   {
     problem.tolerance  = tolerance;
     problem.sufficient = std::max(parameters.tolerance, tolerance);
-    problem.limit      = parameters.limit;
+    // What has failed in this step would do so again: its gaps are closed at once.
+    problem.limit = result.converged ? parameters.limit : 1;
     for (std::size_t i = 0; i < pairs.size(); ++i)
       pairs[i].target_gap = members[i]->pair.target_gap;
     if (closed_solution)

@@ -43,7 +43,8 @@ namespace akmon
     prm.declare_entry("Maximum iterations",
                       "1000",
                       dealii::Patterns::Integer(1),
-                      "Applications of the Delassus operator that one coupled solution may take");
+                      "Applications of the Delassus operator that one coupled solution may take "
+                      "before gaps are closed with less friction than Coulomb's");
     prm.declare_entry(
       "Release speed",
       "1e-4",

@@ -276,9 +276,7 @@ namespace akmon
       {
         const double n = island->has_closed_solution() ? 0. : island->members.size();
         sums[1] += n;
-        // What has failed would do so again.
-        island->is_new = !island->is_solved || (island->get_result().converged &&
-                                                !island->is_solved_for(island->members));
+        island->is_new = !island->is_solved || !island->is_solved_for(island->members);
         if (!island->is_new)
           continue;
         island->solve(island->members, parameters, tolerance, newton);

@@ -400,6 +400,32 @@ namespace
   }
 
 
+  // Too few applications for the true problem: friction may be too little, gaps are right.
+  TEST_P(Complementarity, without_a_solution_closes_gaps_within_the_cones)
+  {
+    const auto [n, n_repeated] = GetParam();
+    unsigned int n_unconverged = 0;
+    for (unsigned int seed = 1; seed <= 50; ++seed)
+      {
+        const Problem problem(n, n_repeated, seed);
+        const auto friction = coefficients(n, seed);
+        std::vector<Vector> t(n);
+        n_unconverged += !solve(problem, friction, t, 2).converged;
+        const auto w = problem.relative_motion(t);
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            EXPECT_GE(t[i][0], 0.) << seed;
+            EXPECT_GE(w[i][0], -1e-10) << seed;
+            EXPECT_LE(std::min(t[i][0], w[i][0]), 1e-10) << seed;
+            EXPECT_LE(std::hypot(t[i][1], t[i][2]), friction[i] * t[i][0] * (1. + 1e-12) + 1e-14)
+              << seed;
+          }
+      }
+    report("without a solution", n_unconverged);
+    EXPECT_GT(n_unconverged, n > 2 ? 5u : 0u);
+  }
+
+
   TEST_P(Complementarity, with_friction_satisfies_signorini_and_coulomb)
   {
     const auto [n, n_repeated] = GetParam();

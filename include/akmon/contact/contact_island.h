@@ -102,7 +102,7 @@ namespace akmon
     PairPreconditioner preconditioner;
     unsigned int iterations_when_new = 0; ///< that fresh factors took
     bool closed_solution             = false;
-    Newton::Problem problem; ///< in tau_i = t_i/s_i
+    FrictionalProblem problem; ///< in tau_i = t_i/s_i
     Delassus::Vector tau;
     std::vector<CoulombFace> faces;
     Newton::Result result{};

@@ -1,13 +1,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "support/kept_run.h"
 #include "support/report.h"
 #include "support/run_case.h"
 
 // All surfaces in one contact, no pairs listed: a tower that settles under gravity, a ring that
-// is crushed until it touches itself. Run to the end on the default parameters.
+// is crushed until it touches itself, soft spheres poured into a box (fewer than in the shipped
+// case). Run to the end on the default parameters.
 
 using namespace akmon::test;
 
@@ -15,9 +18,10 @@ namespace
 {
   // At every step.
   Table
-  run_and_check(const std::string &name)
+  run_and_check(const std::string &name, std::vector<std::string> changes = {})
   {
-    const Table history = run_case(shipped(name), {"Output/History steps=1"});
+    changes.emplace_back("Output/History steps=1");
+    const Table history = run_case(shipped(name), changes);
     report("penetration over h", largest_of(history["max_penetration_rel"]));
     report("energy error", largest_of(history["energy_error"]));
     report("iterations, mean", mean_iterations(history));
@@ -47,5 +51,21 @@ namespace
   {
     const Table history = run_and_check("crushed_ring");
     EXPECT_GE(history["plastic_dissipation"].back(), 0.5 * history["external_work"].back());
+  }
+
+
+  TEST(PouredSpheres, pile_up_in_the_box)
+  {
+    const Table history = run_and_check("poured_spheres",
+                                        {"Bodies/ball/Copies/Count=3, 3, 3",
+                                         "Bodies/ball/Position=-0.023, -0.023, 0.013",
+                                         "Obstacles/left/Point=-0.036, 0, 0",
+                                         "Obstacles/right/Point=0.036, 0, 0",
+                                         "Obstacles/front/Point=0, -0.036, 0",
+                                         "Obstacles/back/Point=0, 0.036, 0",
+                                         "Time/End=0.3"});
+    const auto &weight  = history["floor.force_z"];
+    EXPECT_GT(weight.back(), 0.);
+    EXPECT_GE(history["friction_dissipation"].back(), 0.01 * history["external_work"].back());
   }
 } // namespace
