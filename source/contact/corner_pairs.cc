@@ -42,28 +42,24 @@ namespace akmon
     const auto point  = x[slaves[slave].number];
     const auto foot   = point - partner.projection.offset;
     const auto normal = face_normal(x, partner);
-    std::vector<unsigned int> seen;
-    for (const unsigned int node : masters[first_face].nodes)
-      for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
-        {
-          Partner neighbour;
-          neighbour.face           = faces_at[i];
-          const MasterFace &master = masters[neighbour.face];
-          if (neighbour.face == first_face ||
-              std::find(seen.begin(), seen.end(), neighbour.face) != seen.end())
-            continue;
-          seen.push_back(neighbour.face);
-          const Segment corners = segment(x, master);
-          if (!forms_valley(corners, foot, normal) || !opposes(master, area_vector(corners), slave))
-            continue;
-          neighbour.projection = project(point, corners);
-          neighbour.normal     = face_normal(x, neighbour);
-          neighbour.gap        = neighbour.normal * neighbour.projection.offset;
-          const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
-          if (neighbour.gap <= reach && neighbour.gap >= in_front * slaves[slave].size &&
-              beside.norm() <= part * reach)
-            add_to_corner(first, make_pair(x, slave, neighbour), pairs);
-        }
+    // What rises from the face at 30 degrees is half as far as the edge.
+    if (distance_to_border(foot, segment(x, masters[first_face])) > 2.1 * reach)
+      return;
+    visit_neighbours(first_face, [&](const unsigned int f) {
+      const MasterFace &master = masters[f];
+      const Segment corners    = segment(x, master);
+      if (!forms_valley(corners, foot, normal) || !opposes(master, area_vector(corners), slave))
+        return;
+      Partner neighbour;
+      neighbour.face       = f;
+      neighbour.projection = project(point, corners);
+      neighbour.normal     = face_normal(x, neighbour);
+      neighbour.gap        = neighbour.normal * neighbour.projection.offset;
+      const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
+      if (neighbour.gap <= reach && neighbour.gap >= in_front * slaves[slave].size &&
+          beside.norm() <= part * reach)
+        add_to_corner(first, make_pair(x, slave, neighbour), pairs);
+    });
     // The mean normal of an edge is none of its faces'.
     if (pairs[first].shares_corner && partner.projection.feature != Projection::Feature::face)
       {

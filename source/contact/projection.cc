@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace akmon
 {
@@ -154,9 +155,18 @@ namespace akmon
   }
 
 
-  Tensor<1, 3>
-  area_vector(const Segment &segment)
+  double
+  distance_to_border(const Tensor<1, 3> &point, const Segment &segment)
   {
-    return 0.5 * cross_product_3d(segment[2] - segment[0], segment[3] - segment[1]);
+    double least = std::numeric_limits<double>::max();
+    for (unsigned int e = 0; e < 4; ++e)
+      {
+        const auto direction = segment[(e + 1) % 4] - segment[e];
+        const auto offset    = point - segment[e];
+        const double length  = direction.norm_square();
+        const double along   = length > 0. ? (offset * direction) / length : 0.;
+        least                = std::min(least, (offset - along * direction).norm_square());
+      }
+    return std::sqrt(least);
   }
 } // namespace akmon

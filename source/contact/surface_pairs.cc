@@ -22,13 +22,6 @@ namespace akmon
   }
 
 
-  Segment
-  SurfaceSearch::segment(const ContactNodes::Field &x, const MasterFace &face) const
-  {
-    return {{x[face.nodes[0]], x[face.nodes[1]], x[face.nodes[2]], x[face.nodes[3]]}};
-  }
-
-
   // Sum of the area vectors of the slave faces around a node.
   Tensor<1, 3>
   SurfaceSearch::slave_normal(const NodalVector &positions, const unsigned int slave) const
@@ -159,22 +152,19 @@ namespace akmon
     const auto foot         = point - partner.projection.offset;
     const auto normal       = face_normal(x, partner);
     double best             = partner.projection.offset.norm();
-    for (const unsigned int node : masters[left].nodes)
-      for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
+    visit_neighbours(left, [&](const unsigned int f) {
+      const auto corners = segment(x, masters[f]);
+      if (!opposes(masters[f], area_vector(corners), slave) ||
+          (across_ridges_only && forms_valley(corners, foot, normal)))
+        return;
+      const auto projection = project(point, corners);
+      if (projection.offset.norm() < best)
         {
-          const auto &face   = masters[faces_at[i]];
-          const auto corners = segment(x, face);
-          if (faces_at[i] == left || !opposes(face, area_vector(corners), slave) ||
-              (across_ridges_only && forms_valley(corners, foot, normal)))
-            continue;
-          const auto projection = project(point, corners);
-          if (projection.offset.norm() < best)
-            {
-              best               = projection.offset.norm();
-              partner.face       = faces_at[i];
-              partner.projection = projection;
-            }
+          best               = projection.offset.norm();
+          partner.face       = f;
+          partner.projection = projection;
         }
+    });
   }
 
 

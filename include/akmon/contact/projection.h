@@ -43,6 +43,13 @@ namespace akmon
   segment_normal(const Segment &segment, const double xi, const double eta);
 
   /// Outward normal of a segment, as long as its area (exact for plane segments).
-  dealii::Tensor<1, 3>
-  area_vector(const Segment &segment);
+  inline dealii::Tensor<1, 3>
+  area_vector(const Segment &segment)
+  {
+    return 0.5 * cross_product_3d(segment[2] - segment[0], segment[3] - segment[1]);
+  }
+
+  /// Least distance of a point of a segment to the lines through its edges.
+  double
+  distance_to_border(const dealii::Tensor<1, 3> &point, const Segment &segment);
 } // namespace akmon

@@ -162,8 +162,14 @@ namespace akmon
     collect_slaves();
     std::vector<std::array<double, 6>>
     slave_boxes_of_all_ranks(const NodalVector &x) const;
-    Segment
-    segment(const ContactNodes::Field &x, const MasterFace &face) const;
+    static Segment
+    segment(const ContactNodes::Field &x, const MasterFace &face)
+    {
+      return {{x[face.nodes[0]], x[face.nodes[1]], x[face.nodes[2]], x[face.nodes[3]]}};
+    }
+    template <typename Visit>
+    void
+    visit_neighbours(const unsigned int face, const Visit &visit) const;
     dealii::Tensor<1, 3>
     slave_normal(const NodalVector &positions, const unsigned int slave) const;
     void
@@ -231,4 +237,21 @@ namespace akmon
     std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
   };
+
+
+  // visit(f) for every face that shares a node with a face, once: at the first of these nodes.
+  template <typename Visit>
+  void
+  SurfaceSearch::visit_neighbours(const unsigned int face, const Visit &visit) const
+  {
+    const auto &nodes = masters[face].nodes;
+    for (auto node = nodes.begin(); node != nodes.end(); ++node)
+      for (unsigned int i = faces_at_begin[*node]; i < faces_at_begin[*node + 1]; ++i)
+        {
+          const auto &others = masters[faces_at[i]].nodes;
+          if (faces_at[i] != face &&
+              std::find_first_of(nodes.begin(), node, others.begin(), others.end()) == node)
+            visit(faces_at[i]);
+        }
+  }
 } // namespace akmon
