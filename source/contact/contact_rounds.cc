@@ -1,0 +1,142 @@
+#include <akmon/contact/contact.h>
+#include <akmon/contact/coupled_solver.h>
+#include <akmon/contact/edge_search.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+// The coupled solution in rounds: what is not linear in the gaps that a step leads to.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  // Forces, and again while the gaps that they lead to are not what the linear constraints promise.
+  void
+  Contact::solve_coupled(const NodalState &state)
+  {
+    constexpr unsigned int most_rounds = 16;
+
+    coupled->solve(dx_free);
+    for (unsigned int round = 1; round < most_rounds; ++round)
+      {
+        const double excess = follow_partners(state, round == 1);
+        if (Utilities::MPI::max(excess, discretization.communicator()) <= 1.)
+          return;
+        set_target_gaps(state);
+        coupled->solve(dx_free);
+      }
+  }
+
+
+  // Where the bodies are at the next level, after contact forces that cause a response.
+  std::vector<Pose>
+  Contact::reached_poses(const ContactNodes::Field *response) const
+  {
+    std::vector<Pose> poses;
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      {
+        RigidIncrement increment;
+        if (bodies[i].moves() && response)
+          {
+            const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
+            increment                = {(*response)[first], (*response)[first + 1]};
+          }
+        poses.push_back(bodies[i].next_pose(increment));
+      }
+    return poses;
+  }
+
+
+  // The gap of a pair in the configuration x_reached; false if it has no partner there.
+  bool
+  Contact::reached_gap(ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
+  {
+    if (pair.of_edges)
+      return edge_searches[pair.search].gap_at(x_reached, pair, gap);
+    if (pair.interface < contacts.size())
+      return pair.n_nodes > 1 && searches[pair.search].gap_at(x_reached, pair, gap);
+    if (pair.slave == numbers::invalid_unsigned_int)
+      return std::any_of(rigid_touches.begin(), rigid_touches.end(), [&](const auto &touch) {
+        return touch.gap_at(pair, poses, gap);
+      });
+    const unsigned int body = pair.interface - contacts.size();
+    gap                     = obstacle_gap(*bodies[body].parameters().shape,
+                       poses[body],
+                       pair,
+                       x_reached[pair.nodes[0]]);
+    return true;
+  }
+
+
+  // The curvature that a solution has found is what the next one counts on, and what further
+  // rounds would add to it: the secant through this round and the one before tells how much of a
+  // change comes back. Where it comes back with the other sign less of it is more: rounds would
+  // overshoot, or close and open the pair in turns.
+  void
+  Contact::count_on(ContactPair &pair, const double curvature)
+  {
+    constexpr double largest_return = 0.5;  // beyond, it is not the pair's own motion that counts
+    constexpr double least_return   = -20.; // the same
+
+    const double change  = curvature - pair.curvature;
+    const double returns = pair.correction != 0. ? 1. + (change - pair.change) / pair.correction :
+                                                   0.;
+    pair.change          = change;
+    const bool is_own    = returns < largest_return && returns > least_return;
+    pair.correction      = is_own ? change / (1. - returns) : change;
+    pair.curvature += pair.correction;
+  }
+
+
+  // While segments turn under a slave, surfaces are curved or bodies rotate, n . G dx + g misses a
+  // part of second order of the gap that the step reaches. Measures it for all pairs that may
+  // close, or for those that the last solution has moved otherwise than the one before; returns how
+  // far it is from what the solution counted on, over what is allowed.
+  double
+  Contact::follow_partners(const NodalState &state, const bool all_pairs)
+  {
+    // Of the cell size. Rigid shapes are exact: so are gaps from them; normals of edges turn fast.
+    constexpr double of_faces = 1e-7, of_edges = 1e-10, of_rigid = 1e-12;
+
+    if (searches.empty() && bodies.empty())
+      return 0.;
+    const auto &dx_contact = coupled->increments();
+    x_reached              = x;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      x_reached.add(i, dx_free[i] + dx_contact[i]);
+    const auto poses      = reached_poses(&dx_contact);
+    const auto moves_anew = [&](const ContactPair &pair) {
+      return !pair.settled || pair.wanders ||
+             std::any_of(pair.nodes.begin(),
+                         pair.nodes.begin() + pair.n_nodes,
+                         [&](const auto node) { return dx_contact[node] != dx_followed[node]; });
+    };
+
+    double largest = 0.;
+    for (ContactPair *const pair : coupled->participants())
+      {
+        double reached;
+        if (!(all_pairs || moves_anew(*pair)) || !reached_gap(*pair, poses, reached))
+          continue;
+        const auto motion      = pair->relative(dx_free) + pair->relative(dx_contact);
+        const double bound     = 0.5 * motion.norm(); // whatever is beyond is another partner
+        const double linear    = pair->gap + pair->normal * motion;
+        const double curvature = std::clamp(reached - linear, -bound, bound);
+        const double allowed   = std::min(0., pair->gap + release(*pair, state));
+        const double excess    = std::abs(curvature - pair->curvature) /
+                              (pair->size * (pair->interface >= contacts.size() ? of_rigid :
+                                             pair->of_edges                     ? of_edges :
+                                                                                  of_faces));
+        if (pair->normal_force > 0. || linear + curvature < allowed)
+          largest = std::max(largest, excess);
+        pair->settled = excess <= 1.;
+        if (!pair->settled)
+          count_on(*pair, curvature);
+      }
+    dx_followed = dx_contact;
+    return largest;
+  }
+} // namespace akmon
