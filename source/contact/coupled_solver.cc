@@ -180,16 +180,19 @@ namespace akmon
             }
           closing.push_back(own);
         }
-    const auto gathered = gather(closing, communicator);
-    order.resize(gathered.size());
-    std::iota(order.begin(), order.end(), 0U);
     if (nodes.is_parallel())
-      std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-        return gathered[a].pair.key() < gathered[b].pair.key();
-      });
-    closing.clear();
+      closing = gather(closing, communicator);
+    order.resize(closing.size());
+    std::iota(order.begin(), order.end(), 0U);
+    if (!nodes.is_parallel())
+      return;
+    std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+      return closing[a].pair.key() < closing[b].pair.key();
+    });
+    std::vector<ClosingPair> sorted;
     for (const unsigned int i : order)
-      closing.push_back(gathered[i]);
+      sorted.push_back(closing[i]);
+    closing = std::move(sorted);
   }
 
 
