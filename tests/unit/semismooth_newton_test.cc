@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "support/random_contact.h"
 #include "support/report.h"
 
 // The solver of the coupled contact problem alone: small problems, regular and singular, with
@@ -20,126 +21,9 @@ namespace
   using namespace akmon;
   using namespace akmon::test;
 
-  using Vector = dealii::Tensor<1, 3>;
-  using Frame  = dealii::Tensor<2, 3>;
-  using Matrix = std::vector<std::vector<double>>;
-
   constexpr double tolerance = 1e-12;
 
-
-  double
-  norm_bound(const Matrix &A)
-  {
-    double largest = 0.;
-    for (const auto &row : A)
-      {
-        double sum = 0.;
-        for (const double a : row)
-          sum += std::abs(a);
-        largest = std::max(largest, sum);
-      }
-    return largest;
-  }
-
-
-  // A frame whose first row is a vector.
-  Frame
-  frame_of(const Vector &n)
-  {
-    Frame frame;
-    frame[0] = n / n.norm();
-    frame[1] = cross_product_3d(frame[0], Vector({1., 0.3, 0.}));
-    frame[1] /= frame[1].norm();
-    frame[2] = cross_product_3d(frame[0], frame[1]);
-    return frame;
-  }
-
-
-  // w = A t + b with the blocks A_ij = S_ij F_i F_j^T, S = G G^T scaled to a unit diagonal, F the
-  // frames of the pairs, and b = F G f + gaps along the normals, gaps >= 0: bounded below whatever
-  // the rank of G is.
-  struct Problem
-  {
-    Problem(const unsigned int n,
-            const unsigned int n_repeated,
-            const unsigned int seed,
-            const bool flat = false)
-      : S(n, std::vector<double>(n))
-      , b(n)
-      , frame(n)
-    {
-      std::mt19937 random(seed);
-      std::normal_distribution<double> gauss;
-      const auto vector = [&]() { return Vector({gauss(random), gauss(random), gauss(random)}); };
-      Matrix G(n, std::vector<double>(n));
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          for (auto &g : G[i])
-            g = gauss(random);
-          frame[i] = frame_of(Vector({0., 0., 1.}) + (flat ? 0. : 0.2) * vector());
-        }
-      for (unsigned int i = 0; i < n_repeated; ++i)
-        {
-          G[n - 1 - i]     = G[i];
-          frame[n - 1 - i] = frame[i];
-        }
-      for (auto &row : G)
-        {
-          double square = 0.;
-          for (const double g : row)
-            square += g * g;
-          for (double &g : row)
-            g /= std::sqrt(square);
-        }
-      std::vector<Vector> f(n);
-      for (auto &f_k : f)
-        f_k = vector();
-      for (unsigned int i = 0; i < n; ++i)
-        {
-          // Every other gap is closed; rows that repeat each other may have different gaps.
-          b[i][0] = i % 2 ? 0. : 0.1 * std::abs(gauss(random));
-          for (unsigned int k = 0; k < n; ++k)
-            b[i] += G[i][k] * (frame[i] * f[k]);
-          for (unsigned int j = 0; j < n; ++j)
-            for (unsigned int k = 0; k < n; ++k)
-              S[i][j] += G[i][k] * G[j][k];
-        }
-    }
-
-    void
-    apply(const std::vector<Vector> &t, std::vector<Vector> &y) const
-    {
-      for (std::size_t i = 0; i < S.size(); ++i)
-        {
-          y[i] = Vector();
-          for (std::size_t j = 0; j < S.size(); ++j)
-            y[i] += S[i][j] * (frame[i] * (t[j] * frame[j]));
-        }
-    }
-
-    std::vector<Vector>
-    relative_motion(const std::vector<Vector> &t) const
-    {
-      std::vector<Vector> w(t.size());
-      apply(t, w);
-      for (std::size_t i = 0; i < t.size(); ++i)
-        w[i] += b[i];
-      return w;
-    }
-
-    std::vector<double>
-    gaps(const std::vector<Vector> &t) const
-    {
-      std::vector<double> result;
-      for (const auto &w_i : relative_motion(t))
-        result.push_back(w_i[0]);
-      return result;
-    }
-
-    Matrix S;
-    std::vector<Vector> b;
-    std::vector<Frame> frame;
-  };
+  using Problem = RandomContact;
 
 
   // Cholesky's solution of A_nn t_n = -b_n on the set of bits; false if A_nn is singular there.
