@@ -42,6 +42,8 @@ namespace akmon
   void
   Contact::search(const NodalState &state)
   {
+    constexpr double least_reach = 0.02; // of the radius, where all are at rest
+
     const double fastest = fastest_motion(state);
     double least_radius  = std::numeric_limits<double>::max();
     for (const auto &search : searches)
@@ -49,10 +51,9 @@ namespace akmon
     // Two surfaces can approach each other at twice the speed of the faster one.
     moved += 2. * fastest;
     travelled += 2. * fastest;
-    const double reach_of_obstacles = std::max(8. * fastest, reach_of_step(state, 0.));
-    double reach                    = searches.empty() ?
-                                        reach_of_obstacles :
-                                        std::max(reach_of_obstacles, reach_of_step(state, least_radius));
+    const double reach_of_obstacles = reach_of_step(state, fastest);
+    double reach                    = searches.empty() ? reach_of_obstacles :
+                                                         std::max(reach_of_obstacles, least_reach * least_radius);
     if (!prepared || moved + reach > least_radius)
       rebuild_candidates(state, reach);
     if (state.step == 0) // bodies may be about to start
@@ -114,14 +115,12 @@ namespace akmon
 
 
   // What the coming step may move surfaces by, whose forces are not known yet: several times what
-  // any node does, surfaces at rest that are pushed from inside included, and part of a cell where
-  // all are at rest.
+  // any node does, surfaces at rest that are pushed from inside included.
   double
-  Contact::reach_of_step(const NodalState &state, const double least_radius) const
+  Contact::reach_of_step(const NodalState &state, const double fastest_on_surfaces) const
   {
-    constexpr double part = 0.02;
-    const double fastest  = std::max(state.dx.linfty_norm(), state.dx_next.linfty_norm());
-    return std::max(8. * fastest, part * least_radius);
+    return 8. *
+           std::max({fastest_on_surfaces, state.dx.linfty_norm(), state.dx_next.linfty_norm()});
   }
 
 

@@ -39,14 +39,18 @@ namespace akmon
   }
 
 
+  // The candidates of a slave, unless another slave of this search has needed them.
   void
-  SurfaceSearch::measure_faces(const ContactNodes::Field &x)
+  SurfaceSearch::measure_candidates(const ContactNodes::Field &x, const unsigned int slave)
   {
-    shapes.resize(masters.size());
-    for (const unsigned int f : candidate_faces)
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
+        const unsigned int f = candidates[i];
+        auto &shape          = shapes[f];
+        if (shape.measured_in == n_searches)
+          continue;
+        shape.measured_in     = n_searches;
         const Segment corners = segment(x, masters[f]);
-        auto &shape           = shapes[f];
         shape.normal          = area_vector(corners);
         shape.area            = shape.normal.norm();
         shape.middle          = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
@@ -214,11 +218,12 @@ namespace akmon
                             const double travelled,
                             std::vector<ContactPair> &pairs)
   {
-    measure_faces(x);
+    ++n_searches;
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
         if (slaves[s].first_candidate == slaves[s + 1].first_candidate || travelled < rest_until[s])
           continue;
+        measure_candidates(x, s);
         outwards[s] = slave_normal(positions, s);
         Partner partner;
         if (!closest_face(x, s, partner))

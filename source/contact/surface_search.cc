@@ -276,10 +276,7 @@ namespace akmon
         std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());
       }
     slaves.back().first_candidate = candidates.size();
-    candidate_faces               = candidates;
-    std::sort(candidate_faces.begin(), candidate_faces.end());
-    candidate_faces.erase(std::unique(candidate_faces.begin(), candidate_faces.end()),
-                          candidate_faces.end());
+    shapes.assign(masters.size(), FaceShape());
     last_faces.assign(slaves.size(), numbers::invalid_unsigned_int);
     rest_until.assign(slaves.size(), 0.);
   }

@@ -218,7 +218,7 @@ namespace akmon
 
   private:
     double
-    reach_of_step(const NodalState &state, const double least_radius) const;
+    reach_of_step(const NodalState &state, const double fastest_on_surfaces) const;
     void
     rebuild_candidates(const NodalState &state, const double reach);
     double

@@ -146,6 +146,7 @@ namespace akmon
     {
       dealii::Tensor<1, 3> normal, middle; ///< area vector; length^2, length
       double area, radius;                 ///< radius: from the middle to the furthest corner
+      unsigned int measured_in = 0;        ///< the number of the search
     };
 
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
@@ -173,7 +174,7 @@ namespace akmon
     dealii::Tensor<1, 3>
     slave_normal(const NodalVector &positions, const unsigned int slave) const;
     void
-    measure_faces(const ContactNodes::Field &x);
+    measure_candidates(const ContactNodes::Field &x, const unsigned int slave);
     bool
     closest_face(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
     bool
@@ -233,7 +234,7 @@ namespace akmon
     std::vector<FaceMessage> fetched; ///< sorted by id
     std::vector<MasterFace> masters;  ///< in the same order
     std::vector<FaceShape> shapes;    ///< of the candidate faces, in the same numbers
-    std::vector<unsigned int> candidate_faces;
+    unsigned int n_searches = 0;
     std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
   };
