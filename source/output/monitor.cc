@@ -282,6 +282,7 @@ namespace akmon
       for (unsigned int d = 0; d < 3; ++d)
         sums.push_back(interface.force()[d]);
     Utilities::MPI::sum(sums, communicator, sums);
+    n_active_pairs = sums[0];
     sums.insert(sums.begin() + 2, double(report.iterations));
     append(sums);
     for (const auto &body : watched.rigid_bodies)

@@ -113,11 +113,11 @@ namespace akmon
       return solver_record;
     }
 
-    /// Pairs that carried a force at the last level (this rank's).
+    /// Pairs of all ranks that carried a force at the last row of the history.
     unsigned int
     active_pairs() const
     {
-      return report.active_pairs;
+      return n_active_pairs;
     }
 
   private:
@@ -172,6 +172,7 @@ namespace akmon
     EnergyBalance balance;
     double initial_energy = 0., largest_energy = 0.;
     ContactReport report;
+    unsigned int n_active_pairs = 0;                    ///< of all ranks, in the last row
     double penetration = 0., penetration_relative = 0.; ///< since the last row
     Extremum deepest;                                   ///< penetration over the cell size so far
     Extremes worst;
