@@ -30,7 +30,6 @@ namespace akmon
       if (pair->normal_force > 0.)
         loaded.push_back(pair);
     nodes.make(field);
-    sums.forget();
     sums.add(
       loaded,
       [&](const std::size_t i, const unsigned int k) {

@@ -2,7 +2,6 @@
 #include <akmon/contact/reproducible_sums.h>
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace akmon
@@ -11,26 +10,20 @@ namespace akmon
   NodalSums::add_shares(ContactNodes::Field &field)
   {
     nodes.transfer_to_owners(shares);
-    if (order.size() != shares.size())
-      {
-        const auto key = [&](const unsigned int i) {
-          const Share &share = shares[i];
-          return std::make_tuple(share.node,
-                                 share.interface,
-                                 share.of_edges,
-                                 share.reversed,
-                                 share.slave,
-                                 share.slot,
-                                 share.others);
-        };
-        order.resize(shares.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-          return key(a) < key(b);
-        });
-      }
-    for (const unsigned int i : order)
-      field.add(nodes.number(shares[i].node), shares[i].value);
+    const auto key = [](const Share &share) {
+      return std::make_tuple(share.node,
+                             share.interface,
+                             share.of_edges,
+                             share.reversed,
+                             share.slave,
+                             share.slot,
+                             share.others);
+    };
+    std::sort(shares.begin(), shares.end(), [&](const Share &a, const Share &b) {
+      return key(a) < key(b);
+    });
+    for (const Share &share : shares)
+      field.add(nodes.number(share.node), share.value);
   }
 
 

@@ -20,13 +20,6 @@ namespace akmon
     {
     }
 
-    /// Other pairs from now on.
-    void
-    forget()
-    {
-      order.clear();
-    }
-
     /**
      * Add to a field of zeros at owned and common nodes (collective).
      * @param value  value(i, k) of pair i at its node number k
@@ -53,7 +46,6 @@ namespace akmon
 
     const ContactNodes &nodes;
     std::vector<Share> shares;
-    std::vector<unsigned int> order; ///< that shares are added in, as long as pairs are the same
     std::vector<std::vector<double>> of_common; ///< by component of the common nodes
   };
 
