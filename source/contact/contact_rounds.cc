@@ -17,7 +17,7 @@ namespace akmon
   void
   Contact::solve_coupled(const NodalState &state)
   {
-    constexpr unsigned int most_rounds = 16;
+    constexpr unsigned int most_rounds = 40;
 
     coupled->solve(dx_free);
     for (unsigned int round = 1; round < most_rounds; ++round)
