@@ -7,7 +7,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 // Steps 5 to 7 of Contact: forces and what they do.
