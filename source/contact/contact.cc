@@ -13,16 +13,11 @@ namespace akmon
 {
   using namespace dealii;
 
-  // Over all ranks; of rigid bodies at the furthest slave node.
+  // Of rigid bodies at the furthest slave node, over all ranks.
   double
-  Contact::fastest_motion(const NodalState &state) const
+  Contact::fastest_rigid_motion(const NodalState &state) const
   {
     double fastest = 0.;
-    for (const unsigned int node : surface_nodes)
-      fastest = std::max({fastest,
-                          at_node(state.dx, node).norm_square(),
-                          at_node(state.dx_next, node).norm_square()});
-    fastest = std::sqrt(fastest);
     for (const auto &body : bodies)
       {
         if (!body.moves())
@@ -39,26 +34,35 @@ namespace akmon
   }
 
 
+  // The forces of the coming step, which may move surfaces, are not known yet: several times what
+  // any node does now is looked at, surfaces at rest that are pushed from inside included.
   void
   Contact::search(const NodalState &state)
   {
-    constexpr double least_reach = 0.02; // of the radius, where all are at rest
+    constexpr double steps      = 8.;
+    constexpr double least_part = 0.02; // of the radius, where all are at rest
 
-    const double fastest = fastest_motion(state);
-    double least_radius  = std::numeric_limits<double>::max();
+    motions.measure(state);
+    const double of_rigid_bodies = fastest_rigid_motion(state);
+    const double fastest         = std::max(motions.largest(), of_rigid_bodies);
+    double least_radius          = std::numeric_limits<double>::max();
     for (const auto &search : searches)
       least_radius = std::min(least_radius, search.radius());
     // Two surfaces can approach each other at twice the speed of the faster one.
     moved += 2. * fastest;
     travelled += 2. * fastest;
-    const double reach_of_obstacles = reach_of_step(state, fastest);
-    double reach                    = searches.empty() ? reach_of_obstacles :
-                                                         std::max(reach_of_obstacles, least_reach * least_radius);
+    const double reach_of_obstacles = steps * fastest;
+    double reach = reach_of_obstacles, least_reach = steps * of_rigid_bodies;
+    if (!searches.empty())
+      {
+        least_reach = std::max(least_reach, least_part * least_radius);
+        reach       = std::max(reach, least_reach);
+      }
     if (!prepared || moved + reach > least_radius)
       rebuild_candidates(state, reach);
     if (state.step == 0) // bodies may be about to start
       for (const auto &search : searches)
-        reach = std::max(reach, search.radius());
+        reach = least_reach = std::max(reach, search.radius());
 
     const std::vector<ContactPair> previous = std::move(pairs);
     pairs.clear();
@@ -71,7 +75,7 @@ namespace akmon
     const auto begin = std::chrono::steady_clock::now();
     for (unsigned int i = 0; i < searches.size(); ++i)
       {
-        searches[i].find_pairs(state.x, x, reach, travelled, pairs);
+        searches[i].find_pairs(state.x, x, motions, steps, least_reach, pairs);
         const unsigned int interface = searches[i].get_interface();
         const bool last = i + 1 == searches.size() || searches[i + 1].get_interface() != interface;
         if (last && !edge_searches.empty())
@@ -114,16 +118,6 @@ namespace akmon
   }
 
 
-  // What the coming step may move surfaces by, whose forces are not known yet: several times what
-  // any node does, surfaces at rest that are pushed from inside included.
-  double
-  Contact::reach_of_step(const NodalState &state, const double fastest_on_surfaces) const
-  {
-    return 8. *
-           std::max({fastest_on_surfaces, state.dx.linfty_norm(), state.dx_next.linfty_norm()});
-  }
-
-
   void
   Contact::rebuild_candidates(const NodalState &state, const double reach)
   {
@@ -146,8 +140,15 @@ namespace akmon
     mobility.reinit(discretization, conditions, nodes);
     bonds->update_mobilities();
     nodes.gather(state.x, x);
+    std::vector<std::array<unsigned int, 2>> neighbours;
     for (auto &search : searches)
-      search.build_candidates(nodes, state.x, x);
+      {
+        if (!prepared)
+          search.forget_distances();
+        search.build_candidates(nodes, state.x, x, motions, moved);
+        search.collect_neighbours(neighbours);
+      }
+    motions.set_neighbours(neighbours);
     for (unsigned int i = 0; i < edge_searches.size(); ++i)
       edge_searches[i].build_candidates(nodes, x, radius_of_edges(i));
     moved    = 0.;

@@ -105,8 +105,12 @@ namespace akmon
       return 0.;
     const auto &dx_contact = coupled->increments();
     x_reached              = x;
+    dx_reached             = dx_free;
     for (unsigned int i = 0; i < nodes.size(); ++i)
-      x_reached.add(i, dx_free[i] + dx_contact[i]);
+      {
+        dx_reached.add(i, dx_contact[i]);
+        x_reached.add(i, dx_reached[i]);
+      }
     const auto poses      = reached_poses(&dx_contact);
     const auto moves_anew = [&](const ContactPair &pair) {
       return !pair.settled || pair.wanders ||
@@ -118,14 +122,17 @@ namespace akmon
     double largest = 0.;
     for (ContactPair *const pair : coupled->participants())
       {
-        double reached;
-        if (!(all_pairs || moves_anew(*pair)) || !reached_gap(*pair, poses, reached))
+        if (!all_pairs && !moves_anew(*pair))
           continue;
-        const auto motion      = pair->relative(dx_free) + pair->relative(dx_contact);
-        const double bound     = 0.5 * motion.norm(); // whatever is beyond is another partner
-        const double linear    = pair->gap + pair->normal * motion;
+        const auto motion    = pair->relative(dx_reached);
+        const double bound   = 0.5 * motion.norm(); // whatever is beyond is another partner
+        const double linear  = pair->gap + pair->normal * motion;
+        const double allowed = std::min(0., pair->gap + release(*pair, state));
+        double reached;
+        const bool stays_open = pair->normal_force == 0. && linear - bound >= allowed;
+        if (stays_open || !reached_gap(*pair, poses, reached))
+          continue;
         const double curvature = std::clamp(reached - linear, -bound, bound);
-        const double allowed   = std::min(0., pair->gap + release(*pair, state));
         const double excess    = std::abs(curvature - pair->curvature) /
                               (pair->size * (pair->interface >= contacts.size() ? of_rigid :
                                              pair->of_edges                     ? of_edges :

@@ -30,9 +30,10 @@ namespace akmon
   SurfaceSearch::add_valley_pairs(const ContactNodes::Field &x,
                                   const double reach,
                                   Partner partner,
-                                  std::vector<ContactPair> &pairs) const
+                                  std::vector<ContactPair> &pairs)
   {
     constexpr double part     = 0.25;  // of the reach: what slaves slide in a step at most
+    constexpr double furthest = 1.1;   // times the reach, with that beside it
     constexpr double in_front = -1e-6; // of the cell size, for rounding: else no valley
 
     if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
@@ -47,12 +48,13 @@ namespace akmon
       return;
     visit_neighbours(first_face, [&](const unsigned int f) {
       const MasterFace &master = masters[f];
-      const Segment corners    = segment(x, master);
-      if (!forms_valley(corners, foot, normal) || !opposes(master, area_vector(corners), slave))
+      const FaceShape &shape   = shape_of(x, f);
+      if (!shape.rises_from(foot, normal) || shape.is_further(point, furthest * reach) ||
+          !opposes(master, shape, slave))
         return;
       Partner neighbour;
       neighbour.face       = f;
-      neighbour.projection = project(point, corners);
+      neighbour.projection = project(point, segment(x, master));
       neighbour.normal     = face_normal(x, neighbour);
       neighbour.gap        = neighbour.normal * neighbour.projection.offset;
       const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
@@ -76,7 +78,7 @@ namespace akmon
   void
   SurfaceSearch::add_corner_pairs(const ContactNodes::Field &x,
                                   const double reach,
-                                  std::vector<ContactPair> &pairs) const
+                                  std::vector<ContactPair> &pairs)
   {
     constexpr double turned = 0.5; // cosine
 
@@ -87,13 +89,11 @@ namespace akmon
       {
         Partner partner;
         partner.face         = candidates[i];
-        const auto &shape    = shapes[partner.face];
-        const double longest = shape.radius + reach;
+        const auto &shape    = shape_of(x, partner.face);
         const auto is_turned = [&](const ContactPair &other) {
           return shape.normal * other.normal < turned * shape.area;
         };
-        if ((point - shape.middle).norm_square() > longest * longest ||
-            !opposes(masters[partner.face], shape.normal, slave) ||
+        if (shape.is_further(point, reach) || !opposes(masters[partner.face], shape, slave) ||
             !std::all_of(pairs.begin() + first, pairs.end(), is_turned))
           continue;
         partner.projection = project(point, segment(x, masters[partner.face]));

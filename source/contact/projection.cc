@@ -41,8 +41,8 @@ namespace akmon
     };
 
 
-    // Newton on |slave - x(xi, eta)|^2, Gauss-Newton where that is not convex; true if it ends
-    // inside the segment.
+    // Newton on |slave - x(xi, eta)|^2 from a start, Gauss-Newton where that is not convex; true if
+    // it ends inside the segment.
     bool
     project_to_interior(const Tensor<1, 3> &slave, const Segment &segment, double &xi, double &eta)
     {
@@ -51,7 +51,6 @@ namespace akmon
       constexpr double far   = 2.; // from where iterations do not come back
 
       const Bilinear x(segment);
-      xi = eta = 0.;
       for (unsigned int iteration = 0; iteration < max_iterations; ++iteration)
         {
           const auto along_xi = x.along_xi(eta), along_eta = x.along_eta(xi);
@@ -128,9 +127,14 @@ namespace akmon
 
 
   Projection
-  project(const Tensor<1, 3> &slave, const Segment &segment, const double edge_tolerance)
+  project(const Tensor<1, 3> &slave,
+          const Segment &segment,
+          const double edge_tolerance,
+          const std::array<double, 2> &start)
   {
     Projection projection;
+    projection.xi  = start[0];
+    projection.eta = start[1];
     if (!project_to_interior(slave, segment, projection.xi, projection.eta))
       project_to_border(slave, segment, projection.xi, projection.eta);
 

@@ -10,15 +10,11 @@ namespace akmon
 
   // Whether a face beside the one with the normal at the foot rises in front of it.
   bool
-  SurfaceSearch::forms_valley(const Segment &corners,
-                              const Tensor<1, 3> &foot,
-                              const Tensor<1, 3> &normal)
+  SurfaceSearch::FaceShape::rises_from(const Tensor<1, 3> &foot, const Tensor<1, 3> &normal) const
   {
     constexpr double nearly_flat = 0.99875; // cosine of 0.05
 
-    const auto area   = area_vector(corners);
-    const auto middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-    return area * normal <= nearly_flat * area.norm() && (middle - foot) * normal > 0.;
+    return box[2] * normal <= nearly_flat && (middle - foot) * normal > 0.;
   }
 
 
@@ -39,37 +35,54 @@ namespace akmon
   }
 
 
-  // The candidates of a slave, unless another slave of this search has needed them.
-  void
-  SurfaceSearch::measure_candidates(const ContactNodes::Field &x, const unsigned int slave)
+  // The segment is in the convex hull of its corners, and that in the box.
+  SurfaceSearch::FaceShape::FaceShape(const Segment &corners)
+    : normal(area_vector(corners))
+    , middle(0.25 * (corners[0] + corners[1] + corners[2] + corners[3]))
+    , area(normal.norm())
   {
-    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+    constexpr double for_rounding = 1e-3;
+
+    const auto along = (corners[1] - corners[0]) + (corners[2] - corners[3]);
+    box[2]           = normal / area;
+    box[0]           = along - (along * box[2]) * box[2];
+    box[0] /= box[0].norm();
+    box[1]       = cross_product_3d(box[2], box[0]);
+    half_widths  = {};
+    double width = 0.;
+    for (unsigned int d = 0; d < 3; ++d)
       {
-        const unsigned int f = candidates[i];
-        auto &shape          = shapes[f];
-        if (shape.measured_in == n_searches)
-          continue;
-        shape.measured_in     = n_searches;
-        const Segment corners = segment(x, masters[f]);
-        shape.normal          = area_vector(corners);
-        shape.area            = shape.normal.norm();
-        shape.middle          = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-        shape.radius          = 0.;
         for (const auto &corner : corners)
-          shape.radius = std::max(shape.radius, (corner - shape.middle).norm_square());
-        shape.radius = std::sqrt(shape.radius);
+          half_widths[d] = std::max(half_widths[d], std::abs((corner - middle) * box[d]));
+        width = std::max(width, half_widths[d]);
       }
+    for (double &half_width : half_widths)
+      half_width += for_rounding * width;
+  }
+
+
+  // In the configuration of the search, measured for the first slave that needs it.
+  const SurfaceSearch::FaceShape &
+  SurfaceSearch::shape_of(const ContactNodes::Field &x, const unsigned int face)
+  {
+    FaceShape &shape = shapes[face];
+    if (shape.measured_in != n_searches)
+      {
+        shape             = FaceShape(segment(x, masters[face]));
+        shape.measured_in = n_searches;
+      }
+    return shape;
   }
 
 
   // Whether a face looks towards the slave's surface and is no part of it.
   bool
   SurfaceSearch::opposes(const MasterFace &face,
-                         const Tensor<1, 3> &normal,
+                         const FaceShape &shape,
                          const unsigned int slave) const
   {
     const auto &outward = outwards[slave];
-    return normal * outward <= -opposed * normal.norm() * outward.norm() &&
+    return shape.box[2] * outward <= -opposed * outward.norm() &&
            std::find(face.nodes.begin(), face.nodes.end(), slaves[slave].number) ==
              face.nodes.end();
   }
@@ -81,18 +94,16 @@ namespace akmon
   bool
   SurfaceSearch::closest_face(const ContactNodes::Field &x,
                               const unsigned int slave,
-                              Partner &partner) const
+                              Partner &partner)
   {
     const auto point      = x[slaves[slave].number];
     const auto &outward   = outwards[slave];
-    const double size     = outward.norm();
-    const auto looks_here = [&](const unsigned int f) {
-      return shapes[f].normal * outward <= -opposed * shapes[f].area * size;
-    };
-    double bound            = std::numeric_limits<double>::max();
+    const double least    = -opposed * outward.norm();
+    const auto looks_here = [&](const FaceShape &shape) { return shape.box[2] * outward <= least; };
+    double bound          = std::numeric_limits<double>::max();
     const unsigned int last = last_faces[slave];
     Projection of_last;
-    if (last != numbers::invalid_unsigned_int && looks_here(last))
+    if (last != numbers::invalid_unsigned_int && looks_here(shape_of(x, last)))
       {
         of_last = project(point, segment(x, masters[last]));
         bound   = of_last.offset.norm();
@@ -101,12 +112,8 @@ namespace akmon
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
         const unsigned int f = candidates[i];
-        if (!looks_here(f))
-          continue;
-        // No point of the face is closer than its middle less the way to its furthest corner; a
-        // thousandth so that rounding excludes no face.
-        const double furthest = 1.001 * (shapes[f].radius + std::min(bound, best));
-        if ((point - shapes[f].middle).norm_square() > furthest * furthest)
+        const auto &shape    = shape_of(x, f);
+        if (!looks_here(shape) || (f != last && shape.is_further(point, std::min(bound, best))))
           continue;
         const Projection projection = f == last ? of_last : project(point, segment(x, masters[f]));
         const double distance       = projection.offset.norm();
@@ -127,7 +134,10 @@ namespace akmon
     const unsigned int slave = pair.row;
     Partner partner;
     partner.face       = pair.face;
-    partner.projection = project(x[slaves[slave].number], segment(x, masters[pair.face]));
+    partner.projection = project(x[slaves[slave].number],
+                                 segment(x, masters[pair.face]),
+                                 near_border,
+                                 pair.foot);
     if (partner.projection.feature != Projection::Feature::face)
       slide_to_neighbour(x, slave, pair.shares_corner, partner);
     pair.wanders = partner.projection.feature != Projection::Feature::face ||
@@ -158,8 +168,9 @@ namespace akmon
     double best             = partner.projection.offset.norm();
     visit_neighbours(left, [&](const unsigned int f) {
       const auto corners = segment(x, masters[f]);
-      if (!opposes(masters[f], area_vector(corners), slave) ||
-          (across_ridges_only && forms_valley(corners, foot, normal)))
+      const FaceShape shape(corners);
+      if (shape.is_further(point, best) || !opposes(masters[f], shape, slave) ||
+          (across_ridges_only && shape.rises_from(foot, normal)))
         return;
       const auto projection = project(point, corners);
       if (projection.offset.norm() < best)
@@ -185,6 +196,7 @@ namespace akmon
     pair.search     = number;
     pair.row        = slave;
     pair.face       = partner.face;
+    pair.foot       = {{partner.projection.xi, partner.projection.eta}};
     pair.normal     = partner.normal;
     pair.gap        = partner.gap;
     pair.size       = slaves[slave].size;
@@ -211,42 +223,80 @@ namespace akmon
   }
 
 
+  // Surfaces approach each other by no more than both have moved.
+  BodyMotions::Motion
+  SurfaceSearch::motion_around(const unsigned int slave, const BodyMotions &motions) const
+  {
+    const unsigned int body = discretization.body_of_node[slaves[slave].node];
+    BodyMotions::Motion result;
+    bool meets_others = false;
+    for (unsigned int i = slaves[slave].first_neighbour; i < slaves[slave + 1].first_neighbour; ++i)
+      {
+        const bool is_own  = neighbours[i] == body;
+        const auto &motion = is_own ? motions.within(body) : motions.of(neighbours[i]);
+        result.increment   = std::max(result.increment, motion.increment);
+        result.way += is_own ? 2. * motion.way : motion.way;
+        meets_others = meets_others || !is_own;
+      }
+    if (meets_others)
+      {
+        result.increment = std::max(result.increment, motions.of(body).increment);
+        result.way += motions.of(body).way;
+      }
+    return result;
+  }
+
+
   void
   SurfaceSearch::find_pairs(const NodalVector &positions,
                             const ContactNodes::Field &x,
-                            const double reach,
-                            const double travelled,
+                            const BodyMotions &motions,
+                            const double steps,
+                            const double least_reach,
                             std::vector<ContactPair> &pairs)
   {
     ++n_searches;
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
-        if (slaves[s].first_candidate == slaves[s + 1].first_candidate || travelled < rest_until[s])
+        if (slaves[s].first_candidate == slaves[s + 1].first_candidate)
           continue;
-        measure_candidates(x, s);
+        const auto around  = motion_around(s, motions);
+        const double reach = std::max(least_reach, steps * around.increment);
+        if (clear_of[s] - around.way > reach)
+          continue;
         outwards[s] = slave_normal(positions, s);
-        Partner partner;
-        if (!closest_face(x, s, partner))
-          {
-            // Faces around a fold may turn towards the slave.
-            last_faces[s] = numbers::invalid_unsigned_int;
-            rest_until[s] = travelled + 0.1 * search_radius;
-            continue;
-          }
-        last_faces[s]         = partner.face;
-        const double distance = partner.projection.offset.norm();
-        // Whatever is inside stays under watch.
-        const bool outside = partner.projection.offset * shapes[partner.face].normal > 0.;
-        if (outside && distance > 2. * reach)
-          rest_until[s] = travelled + 0.5 * (distance - reach);
-        if (!complete(x, s, partner))
-          continue;
-        pairs.push_back(make_pair(x, s, partner));
-        if (coupled && distance <= reach)
-          {
-            add_valley_pairs(x, reach, partner, pairs);
-            add_corner_pairs(x, reach, pairs);
-          }
+        find_pairs_of(x, s, around.way, reach, pairs);
+      }
+  }
+
+
+  void
+  SurfaceSearch::find_pairs_of(const ContactNodes::Field &x,
+                               const unsigned int slave,
+                               const double travelled,
+                               const double reach,
+                               std::vector<ContactPair> &pairs)
+  {
+    Partner partner;
+    if (!closest_face(x, slave, partner))
+      {
+        // Faces around a fold may turn towards the slave.
+        last_faces[slave] = numbers::invalid_unsigned_int;
+        clear_of[slave]   = travelled + reach + 0.1 * search_radius;
+        return;
+      }
+    last_faces[slave]     = partner.face;
+    const double distance = partner.projection.offset.norm();
+    // Whatever is inside stays under watch.
+    const bool outside = partner.projection.offset * shapes[partner.face].normal > 0.;
+    clear_of[slave]    = outside ? travelled + distance : 0.;
+    if ((outside && distance > reach) || !complete(x, slave, partner))
+      return;
+    pairs.push_back(make_pair(x, slave, partner));
+    if (coupled && distance <= reach)
+      {
+        add_valley_pairs(x, reach, partner, pairs);
+        add_corner_pairs(x, reach, pairs);
       }
   }
 } // namespace akmon

@@ -3,9 +3,6 @@
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
-#include <deal.II/numerics/rtree.h>
-
-#include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -55,27 +52,20 @@ namespace akmon
     }
 
 
-    // Whether a node of a body is in the cell behind one of the body's own faces, or further back:
-    // a cell that is pressed flat must not be taken for a body in contact with itself.
-    bool
-    lies_behind(const Tensor<1, 3> &point, const Segment &corners, const double depth)
+    BoxGrid::Box
+    box_around(const Segment &corners, const double margin)
     {
-      constexpr double part = 0.25, beside = 0.5;
-
-      const auto area     = area_vector(corners);
-      const auto normal   = area / area.norm();
-      const auto offset   = project(point, corners).offset;
-      const double behind = -(normal * offset);
-      return behind > part * depth &&
-             (offset + behind * normal).norm() <= beside * std::sqrt(area.norm());
-    }
-
-
-    BoundingBox<3>
-    box_around(const std::vector<Point<3>> &points, const double margin)
-    {
-      BoundingBox<3> box(points);
-      box.extend(margin);
+      BoxGrid::Box box{corners[0], corners[0]};
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          for (const auto &corner : corners)
+            {
+              box.lower[d] = std::min(box.lower[d], corner[d]);
+              box.upper[d] = std::max(box.upper[d], corner[d]);
+            }
+          box.lower[d] -= margin;
+          box.upper[d] += margin;
+        }
       return box;
     }
   } // namespace
@@ -140,6 +130,7 @@ namespace akmon
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       slaves[s].stiffness = stiffness.at(slaves[s].node);
     outwards.resize(slaves.size());
+    forget_distances();
   }
 
 
@@ -164,7 +155,9 @@ namespace akmon
     std::array<double, 6> box = {{1., 1., 1., 0., 0., 0.}};
     if (!points.empty())
       {
-        const auto corners = box_around(points, margin).get_boundary_points();
+        BoundingBox<3> around(points);
+        around.extend(margin);
+        const auto corners = around.get_boundary_points();
         for (unsigned int d = 0; d < 3; ++d)
           {
             box[d]     = corners.first[d];
@@ -208,6 +201,10 @@ namespace akmon
                 outgoing[rank].push_back(message);
             }
         }
+    last_ids.clear();
+    for (const unsigned int face : last_faces)
+      last_ids.push_back(face != numbers::invalid_unsigned_int ? fetched[face].id :
+                                                                 numbers::invalid_dof_index);
     fetched = std::move(outgoing[me]);
     outgoing.erase(me);
     for (const auto &[rank, messages] : Utilities::MPI::some_to_some(communicator, outgoing))
@@ -226,59 +223,144 @@ namespace akmon
   void
   SurfaceSearch::build_candidates(const ContactNodes &nodes,
                                   const NodalVector &positions,
-                                  const ContactNodes::Field &x)
+                                  const ContactNodes::Field &x,
+                                  const BodyMotions &motions,
+                                  const double moved)
   {
+    keep_distances(motions, moved);
     masters.clear();
-    std::vector<std::pair<unsigned int, unsigned int>> incidence; // (contact node, face)
-    std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
+    std::vector<BoxGrid::Box> boxes; // by face
+    shapes.clear();
     for (const auto &message : fetched)
       {
         MasterFace face{message.body, message.depth, message.stiffness, {}};
-        std::vector<Point<3>> points;
         for (unsigned int k = 0; k < 4; ++k)
-          {
-            face.nodes[k] = nodes.number(message.nodes[k]);
-            points.emplace_back(x[face.nodes[k]]);
-            incidence.emplace_back(face.nodes[k], masters.size());
-          }
-        boxes.emplace_back(box_around(points, search_radius), masters.size());
+          face.nodes[k] = nodes.number(message.nodes[k]);
+        boxes.push_back(box_around(segment(x, face), search_radius));
         masters.push_back(face);
+        shapes.emplace_back(segment(x, face));
       }
 
-    std::sort(incidence.begin(), incidence.end());
-    faces_at.clear();
-    faces_at_begin.assign(incidence.empty() ? 1 : incidence.back().first + 2, 0);
-    for (const auto &[node, f] : incidence)
-      {
-        faces_at.push_back(f);
-        ++faces_at_begin[node + 1];
-      }
-    for (unsigned int i = 1; i < faces_at_begin.size(); ++i)
-      faces_at_begin[i] += faces_at_begin[i - 1];
-
-    const auto tree = pack_rtree(boxes);
+    collect_faces_at_nodes(nodes.size());
+    grid.reinit(std::move(boxes));
     candidates.clear();
+    neighbours.clear();
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
-        slaves[s].first_candidate = candidates.size();
-        slaves[s].id              = nodes.id_of_local(slaves[s].node);
-        slaves[s].number          = nodes.number(slaves[s].id);
-        const auto outward        = slave_normal(positions, s);
-        tree.query(boost::geometry::index::intersects(Point<3>(x[slaves[s].number])),
-                   boost::make_function_output_iterator([&](const auto &entry) {
-                     const auto &face = masters[entry.second];
-                     if (face.body == discretization.body_of_node[slaves[s].node] &&
-                         lies_behind(x[slaves[s].number], segment(x, face), face.depth))
-                       return;
-                     if (may_face(x, face, slaves[s].number, outward))
-                       candidates.push_back(entry.second);
-                   }));
-        std::sort(candidates.begin() + slaves[s].first_candidate, candidates.end());
+        Slave &slave          = slaves[s];
+        slave.first_candidate = candidates.size();
+        slave.first_neighbour = neighbours.size();
+        slave.id              = nodes.id_of_local(slave.node);
+        slave.number          = nodes.number(slave.id);
+        const auto outward    = slave_normal(positions, s);
+        const auto is_none    = [&](const unsigned int f) {
+          return !may_face(masters[f], shapes[f], slave.number, outward) ||
+                 (masters[f].body == discretization.body_of_node[slave.node] &&
+                  shapes[f].is_in_front_of(x[slave.number], masters[f].depth));
+        };
+        grid.collect(x[slave.number], candidates);
+        candidates.erase(std::remove_if(candidates.begin() + slave.first_candidate,
+                                        candidates.end(),
+                                        is_none),
+                         candidates.end());
+        collect_neighbours_of(s);
       }
     slaves.back().first_candidate = candidates.size();
-    shapes.assign(masters.size(), FaceShape());
+    slaves.back().first_neighbour = neighbours.size();
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      clear_of[s] += motion_around(s, motions).way;
+    find_last_faces();
+    built_radius = search_radius;
+  }
+
+
+  void
+  SurfaceSearch::collect_faces_at_nodes(const unsigned int n_nodes)
+  {
+    faces_at_begin.assign(n_nodes + 1, 0);
+    for (const MasterFace &face : masters)
+      for (const unsigned int node : face.nodes)
+        ++faces_at_begin[node + 1];
+    for (unsigned int node = 0; node < n_nodes; ++node)
+      faces_at_begin[node + 1] += faces_at_begin[node];
+    faces_at.resize(faces_at_begin.back());
+    std::vector<unsigned int> next(faces_at_begin.begin(), faces_at_begin.end() - 1);
+    for (unsigned int f = 0; f < masters.size(); ++f)
+      for (const unsigned int node : masters[f].nodes)
+        faces_at[next[node]++] = f;
+  }
+
+
+  // From here on counted from what has been travelled so far, and no further than is known of faces
+  // that have been no candidates.
+  void
+  SurfaceSearch::keep_distances(const BodyMotions &motions, const double moved)
+  {
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      clear_of[s] = std::min(clear_of[s] - motion_around(s, motions).way, built_radius - moved);
+  }
+
+
+  void
+  SurfaceSearch::find_last_faces()
+  {
+    for (unsigned int s = 0; s < last_ids.size(); ++s)
+      {
+        const auto found = std::lower_bound(fetched.begin(),
+                                            fetched.end(),
+                                            last_ids[s],
+                                            [](const FaceMessage &face, const auto id) {
+                                              return face.id < id;
+                                            });
+        last_faces[s]    = found != fetched.end() && found->id == last_ids[s] ?
+                             found - fetched.begin() :
+                             numbers::invalid_unsigned_int;
+      }
+  }
+
+
+  void
+  SurfaceSearch::forget_distances()
+  {
+    clear_of.assign(slaves.size(), 0.);
     last_faces.assign(slaves.size(), numbers::invalid_unsigned_int);
-    rest_until.assign(slaves.size(), 0.);
+    candidates.clear();
+    neighbours.clear();
+    for (Slave &slave : slaves)
+      slave.first_candidate = slave.first_neighbour = 0;
+  }
+
+
+  void
+  SurfaceSearch::collect_neighbours_of(const unsigned int slave)
+  {
+    for (std::size_t i = slaves[slave].first_candidate; i < candidates.size(); ++i)
+      if (const unsigned int body = masters[candidates[i]].body;
+          std::find(neighbours.begin() + slaves[slave].first_neighbour, neighbours.end(), body) ==
+          neighbours.end())
+        neighbours.push_back(body);
+  }
+
+
+  void
+  SurfaceSearch::collect_neighbours(std::vector<std::array<unsigned int, 2>> &bodies) const
+  {
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      for (unsigned int i = slaves[s].first_neighbour; i < slaves[s + 1].first_neighbour; ++i)
+        bodies.push_back({{discretization.body_of_node[slaves[s].node], neighbours[i]}});
+  }
+
+
+  // Whether a node of a body is in the cell behind one of the body's own faces, or further back: a
+  // cell that is pressed flat must not be taken for a body in contact with itself.
+  bool
+  SurfaceSearch::FaceShape::is_in_front_of(const Tensor<1, 3> &point, const double depth) const
+  {
+    constexpr double part = 0.25, beside = 0.5;
+
+    return box[2] * (middle - point) > part * depth &&
+           std::hypot(beyond(point - middle, 0), beyond(point - middle, 1)) <=
+             beside * std::sqrt(area);
   }
 
 
@@ -286,16 +368,15 @@ namespace akmon
   // in contact with itself most faces nearby are the slave's own neighbours: they look the same
   // way, and no motion within the radius turns them round.
   bool
-  SurfaceSearch::may_face(const ContactNodes::Field &x,
-                          const MasterFace &face,
+  SurfaceSearch::may_face(const MasterFace &face,
+                          const FaceShape &shape,
                           const unsigned int slave_number,
-                          const Tensor<1, 3> &outward) const
+                          const Tensor<1, 3> &outward)
   {
     constexpr double same_way = 0.8; // cosine
 
-    if (std::find(face.nodes.begin(), face.nodes.end(), slave_number) != face.nodes.end())
-      return false;
-    const auto normal = area_vector(segment(x, face));
-    return normal * outward <= same_way * normal.norm() * outward.norm();
+    const double product = shape.box[2] * outward;
+    return (product <= 0. || product * product <= same_way * same_way * outward.norm_square()) &&
+           std::find(face.nodes.begin(), face.nodes.end(), slave_number) == face.nodes.end();
   }
 } // namespace akmon

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <akmon/checkpoint/checkpoint.h>
+#include <akmon/contact/body_motions.h>
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/mobility.h>
@@ -217,14 +218,12 @@ namespace akmon
     refuse_initial_overlap(const NodalState &state) const;
 
   private:
-    double
-    reach_of_step(const NodalState &state, const double fastest_on_surfaces) const;
     void
     rebuild_candidates(const NodalState &state, const double reach);
     double
     radius_of_edges(const unsigned int interface) const;
     double
-    fastest_motion(const NodalState &state) const;
+    fastest_rigid_motion(const NodalState &state) const;
     void
     add_rigid_motions(ContactNodes::Field &field,
                       RigidIncrement (RigidBody::*motion)() const) const;
@@ -286,12 +285,14 @@ namespace akmon
     Mobility mobility;
     const std::unique_ptr<Bonds> bonds;
     const std::unique_ptr<CoupledSolver> coupled;
+    BodyMotions motions;
     double moved             = 0.; ///< bound of relative motion since candidates were built
     double travelled         = 0.; ///< the same since the beginning
     double seconds_of_search = 0.;
     bool prepared            = false;
 
     ContactNodes::Field x, dx, dx_free, x_reached;
+    ContactNodes::Field dx_reached;  ///< increments that the last solution leads to
     ContactNodes::Field dx_followed; ///< increments by contact that gaps have been measured for
     std::vector<ContactPair> pairs;
     std::vector<ContactNodes::Contribution> contributions;

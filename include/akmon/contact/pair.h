@@ -41,11 +41,12 @@ namespace akmon
     unsigned int slave;     ///< local number of the (owned) slave node
     ContactNodes::Id slave_id;
     std::array<ContactNodes::Id, 3> others{}; ///< of two edges: ids of the nodes b, c, d
-    unsigned int slot    = 0;     ///< 0: with the closest face; else with another face of a corner
-    bool shares_corner   = false; ///< the slave has pairs with several faces, each for itself
-    unsigned int search  = 0;     ///< that found it: its number, of the slave and of the face there
-    unsigned int row     = 0;
-    unsigned int face    = 0;
+    unsigned int slot   = 0;     ///< 0: with the closest face; else with another face of a corner
+    bool shares_corner  = false; ///< the slave has pairs with several faces, each for itself
+    unsigned int search = 0;     ///< that found it: its number, of the slave and of the face there
+    unsigned int row    = 0;
+    unsigned int face   = 0;
+    std::array<double, 2> foot{}; ///< (xi, eta) of the closest point in that face
     unsigned int n_nodes = 1;
     std::array<unsigned int, 7> nodes; ///< contact numbers: slave, then masters, then rotations
     std::array<double, 7> weights;     ///< 1, then -N_k; for rotations as for their body's centre

@@ -28,15 +28,20 @@ namespace akmon
   };
 
 
+  constexpr double near_border = 1e-3; ///< in xi, eta
+
+
   /**
-   * Project a point to the closest point of a segment: face, edge or vertex (4). A closest point
-   * within
-   * @p edge_tolerance (in xi, eta) of the segment's border counts as on its edge or vertex.
+   * Project a point to the closest point of a segment: face, edge or vertex (4).
+   * @param edge_tolerance  a closest point so near to the border (in xi, eta) counts as on an edge
+   *   or vertex
+   * @param start           (xi, eta) to begin with
    */
   Projection
   project(const dealii::Tensor<1, 3> &slave,
           const Segment &segment,
-          const double edge_tolerance = 1e-3);
+          const double edge_tolerance        = near_border,
+          const std::array<double, 2> &start = {{0., 0.}});
 
   /// Outward unit normal of a segment at (xi, eta).
   dealii::Tensor<1, 3>

@@ -1,11 +1,15 @@
 #pragma once
 
+#include <akmon/contact/body_motions.h>
+#include <akmon/contact/box_grid.h>
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/pair.h>
 #include <akmon/contact/projection.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <vector>
 
 namespace akmon
@@ -59,24 +63,38 @@ namespace akmon
     std::vector<ContactNodes::Id>
     fetch_master_faces(const ContactNodes &nodes, const NodalVector &x);
 
-    /// For every slave the faces within the radius, from boxes around the faces at positions @p x.
+    /**
+     * For every slave the faces within the radius, from boxes around the faces at positions @p x.
+     * @param moved  how far surfaces may have moved against each other since the last build, as far
+     *   as what has been found out about distances still holds; length
+     */
     void
     build_candidates(const ContactNodes &nodes,
                      const NodalVector &positions,
-                     const ContactNodes::Field &x);
+                     const ContactNodes::Field &x,
+                     const BodyMotions &motions,
+                     const double moved);
+
+    /// Append the bodies of slaves and of their candidates.
+    void
+    collect_neighbours(std::vector<std::array<unsigned int, 2>> &bodies) const;
+
+    /// Look at all slaves again when candidates are built next.
+    void
+    forget_distances();
 
     /**
      * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
-     * numbers. Slaves that are further from their partners than @p reach may be left out.
+     * numbers: those that are inside, and those that are no further outside than the step may lead,
+     * `steps` times what bodies nearby move in it and `least_reach` (length) at least.
      * @param positions  the same configuration as a nodal vector
-     * @param reach      what may be closed in this step; length
-     * @param travelled  how far surfaces may have moved against each other so far; length
      */
     void
     find_pairs(const NodalVector &positions,
                const ContactNodes::Field &x,
-               const double reach,
-               const double travelled,
+               const BodyMotions &motions,
+               const double steps,
+               const double least_reach,
                std::vector<ContactPair> &pairs);
 
     /**
@@ -116,6 +134,7 @@ namespace akmon
       double stiffness;             ///< mean of its faces' K A^2/V; force/length
       unsigned int first_face;      ///< in slave_face_list
       unsigned int first_candidate; ///< in candidates
+      unsigned int first_neighbour; ///< in neighbours
     };
 
     struct FaceMessage
@@ -141,12 +160,39 @@ namespace akmon
       std::array<unsigned int, 4> nodes; ///< contact numbers
     };
 
-    // A master face in the current configuration.
+    // A master face in the current configuration and a box around it.
     struct FaceShape
     {
-      dealii::Tensor<1, 3> normal, middle; ///< area vector; length^2, length
-      double area, radius;                 ///< radius: from the middle to the furthest corner
-      unsigned int measured_in = 0;        ///< the number of the search
+      dealii::Tensor<1, 3> normal, middle;     ///< area vector; length^2, length
+      double area;                             ///< length^2
+      std::array<dealii::Tensor<1, 3>, 3> box; ///< unit vectors along its edges, the last is normal
+      std::array<double, 3> half_widths;       ///< of the box around the middle; length
+      unsigned int measured_in = 0;            ///< the number of the search
+
+      explicit FaceShape(const Segment &corners);
+
+      // How far the box ends before a point in one of its directions.
+      double
+      beyond(const dealii::Tensor<1, 3> &from_middle, const unsigned int d) const
+      {
+        return std::max(0., std::abs(box[d] * from_middle) - half_widths[d]);
+      }
+
+      // Whether a point is further from the face than a distance for certain.
+      bool
+      is_further(const dealii::Tensor<1, 3> &point, const double distance) const
+      {
+        const auto from_middle = point - middle;
+        const double a = beyond(from_middle, 0), b = beyond(from_middle, 1),
+                     c = beyond(from_middle, 2);
+        return a * a + b * b + c * c > distance * distance;
+      }
+
+      bool
+      rises_from(const dealii::Tensor<1, 3> &foot, const dealii::Tensor<1, 3> &normal) const;
+
+      bool
+      is_in_front_of(const dealii::Tensor<1, 3> &point, const double depth) const;
     };
 
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
@@ -171,25 +217,35 @@ namespace akmon
     template <typename Visit>
     void
     visit_neighbours(const unsigned int face, const Visit &visit) const;
+    void
+    collect_faces_at_nodes(const unsigned int n_nodes);
+    void
+    keep_distances(const BodyMotions &motions, const double moved);
+    void
+    find_last_faces();
+    void
+    collect_neighbours_of(const unsigned int slave);
+    BodyMotions::Motion
+    motion_around(const unsigned int slave, const BodyMotions &motions) const;
+    void
+    find_pairs_of(const ContactNodes::Field &x,
+                  const unsigned int slave,
+                  const double travelled,
+                  const double reach,
+                  std::vector<ContactPair> &pairs);
     dealii::Tensor<1, 3>
     slave_normal(const NodalVector &positions, const unsigned int slave) const;
-    void
-    measure_candidates(const ContactNodes::Field &x, const unsigned int slave);
+    const FaceShape &
+    shape_of(const ContactNodes::Field &x, const unsigned int face);
     bool
-    closest_face(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
-    bool
-    may_face(const ContactNodes::Field &x,
-             const MasterFace &face,
-             const unsigned int slave_number,
-             const dealii::Tensor<1, 3> &outward) const;
-    bool
-    opposes(const MasterFace &face,
-            const dealii::Tensor<1, 3> &normal,
-            const unsigned int slave) const;
+    closest_face(const ContactNodes::Field &x, const unsigned int slave, Partner &partner);
     static bool
-    forms_valley(const Segment &corners,
-                 const dealii::Tensor<1, 3> &foot,
-                 const dealii::Tensor<1, 3> &normal);
+    may_face(const MasterFace &face,
+             const FaceShape &shape,
+             const unsigned int slave_number,
+             const dealii::Tensor<1, 3> &outward);
+    bool
+    opposes(const MasterFace &face, const FaceShape &shape, const unsigned int slave) const;
     void
     slide_to_neighbour(const ContactNodes::Field &x,
                        const unsigned int slave,
@@ -205,11 +261,11 @@ namespace akmon
     add_valley_pairs(const ContactNodes::Field &x,
                      const double reach,
                      Partner partner,
-                     std::vector<ContactPair> &pairs) const;
+                     std::vector<ContactPair> &pairs);
     void
     add_corner_pairs(const ContactNodes::Field &x,
                      const double reach,
-                     std::vector<ContactPair> &pairs) const;
+                     std::vector<ContactPair> &pairs);
     void
     snap_to_closest_node(const ContactNodes::Field &x,
                          const dealii::Tensor<1, 3> &slave,
@@ -224,17 +280,21 @@ namespace akmon
     const unsigned int interface, number;
     const bool reversed, coupled, has_friction;
     double least_radius, search_radius;
+    double built_radius = 0.; ///< that the candidates have been looked for within
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
 
     std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list, candidates;
     std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
     std::vector<unsigned int> last_faces;       ///< by slave: partner of the last search
-    std::vector<double> rest_until;   ///< by slave: nothing is near before this is travelled
-    std::vector<FaceMessage> fetched; ///< sorted by id
-    std::vector<MasterFace> masters;  ///< in the same order
-    std::vector<FaceShape> shapes;    ///< of the candidate faces, in the same numbers
+    std::vector<double> clear_of; ///< by slave: less what was travelled since, nothing is closer
+    std::vector<unsigned int> neighbours; ///< of slaves: the bodies of their candidates
+    std::vector<FaceMessage> fetched;     ///< sorted by id
+    std::vector<dealii::types::global_cell_index> last_ids; ///< of last_faces, between two builds
+    std::vector<MasterFace> masters;                        ///< in the same order
+    std::vector<FaceShape> shapes; ///< of the candidate faces, in the same numbers
     unsigned int n_searches = 0;
+    BoxGrid grid;                             ///< of the master faces, widened by the radius
     std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
   };

@@ -1,0 +1,149 @@
+#pragma once
+
+#include <deal.II/base/tensor.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace akmon
+{
+  /**
+   * Boxes in space by the cells of a regular grid that they overlap, to ask which of them hold a
+   * point. Cells are as large as the mean box, and hashed: where there are no boxes they take no
+   * memory. Its storage is reused.
+   */
+  class BoxGrid
+  {
+  public:
+    struct Box
+    {
+      dealii::Tensor<1, 3> lower, upper; ///< length
+
+      bool
+      holds(const dealii::Tensor<1, 3> &x) const
+      {
+        return lower[0] <= x[0] && x[0] <= upper[0] && lower[1] <= x[1] && x[1] <= upper[1] &&
+               lower[2] <= x[2] && x[2] <= upper[2];
+      }
+    };
+
+    /// Take up boxes instead of those there are.
+    void
+    reinit(std::vector<Box> new_boxes)
+    {
+      boxes = std::move(new_boxes);
+      choose_cell_size();
+      std::size_t n_buckets = 1;
+      while (n_buckets < 2 * boxes.size())
+        n_buckets *= 2;
+      mask = n_buckets - 1;
+      begins.assign(n_buckets + 1, 0);
+      visit_entries([&](const std::size_t bucket, const unsigned int) { ++begins[bucket + 1]; });
+      for (std::size_t i = 1; i <= n_buckets; ++i)
+        begins[i] += begins[i - 1];
+      entries.resize(begins.back());
+      std::vector<unsigned int> next(begins.begin(), begins.end() - 1);
+      visit_entries(
+        [&](const std::size_t bucket, const unsigned int box) { entries[next[bucket]++] = box; });
+    }
+
+    /// Append the numbers of the boxes that hold a point to a list, in ascending order.
+    void
+    collect(const dealii::Tensor<1, 3> &x, std::vector<unsigned int> &numbers) const
+    {
+      const std::size_t first  = numbers.size();
+      const std::size_t bucket = bucket_of(cell_of(x));
+      for (unsigned int i = begins[bucket]; i < begins[bucket + 1]; ++i)
+        if (boxes[entries[i]].holds(x))
+          numbers.push_back(entries[i]);
+      std::sort(numbers.begin() + first, numbers.end());
+      // Two cells of a box may fall into the same bucket.
+      numbers.erase(std::unique(numbers.begin() + first, numbers.end()), numbers.end());
+    }
+
+  private:
+    using Cell = std::array<std::int64_t, 3>;
+
+    // Large boxes among small ones would overlap many cells.
+    void
+    choose_cell_size()
+    {
+      constexpr double most_cells = 64.; // of a box, in the mean
+
+      double sum = 0.;
+      for (const auto &box : boxes)
+        sum += extent(box);
+      size = sum > 0. ? sum / boxes.size() : 1.;
+      while (number_of_cells() > most_cells * boxes.size())
+        size *= 2.;
+    }
+
+    // That all boxes overlap, about.
+    double
+    number_of_cells() const
+    {
+      double sum = 0.;
+      for (const auto &box : boxes)
+        {
+          double n = 1.;
+          for (unsigned int d = 0; d < 3; ++d)
+            n *= 1. + (box.upper[d] - box.lower[d]) / size;
+          sum += n;
+        }
+      return sum;
+    }
+
+    static double
+    extent(const Box &box)
+    {
+      return std::max(
+        {box.upper[0] - box.lower[0], box.upper[1] - box.lower[1], box.upper[2] - box.lower[2]});
+    }
+
+    Cell
+    cell_of(const dealii::Tensor<1, 3> &x) const
+    {
+      constexpr double furthest = 1e15; // where doubles are still whole numbers
+
+      Cell cell{};
+      for (unsigned int d = 0; d < 3; ++d)
+        if (const double at = x[d] / size; !std::isnan(at))
+          cell[d] = static_cast<std::int64_t>(std::floor(std::clamp(at, -furthest, furthest)));
+      return cell;
+    }
+
+    std::size_t
+    bucket_of(const Cell &cell) const
+    {
+      // Multipliers of Teschner et al., Vision, Modeling and Visualization (2003).
+      return (static_cast<std::uint64_t>(cell[0]) * 73856093U ^
+              static_cast<std::uint64_t>(cell[1]) * 19349663U ^
+              static_cast<std::uint64_t>(cell[2]) * 83492791U) &
+             mask;
+    }
+
+    // visit(bucket, box) for the cells that each box overlaps.
+    template <typename Visit>
+    void
+    visit_entries(const Visit &visit) const
+    {
+      for (unsigned int box = 0; box < boxes.size(); ++box)
+        if (std::isfinite(extent(boxes[box]))) // not what a run that fails leads to
+          {
+            const Cell first = cell_of(boxes[box].lower), last = cell_of(boxes[box].upper);
+            for (std::int64_t i = first[0]; i <= last[0]; ++i)
+              for (std::int64_t j = first[1]; j <= last[1]; ++j)
+                for (std::int64_t k = first[2]; k <= last[2]; ++k)
+                  visit(bucket_of({{i, j, k}}), box);
+          }
+    }
+
+    std::vector<Box> boxes;
+    double size      = 1.;                     ///< of the cells; length
+    std::size_t mask = 0;                      ///< number of buckets, a power of two, less one
+    std::vector<unsigned int> begins, entries; ///< by bucket: the numbers of its boxes
+  };
+} // namespace akmon
