@@ -33,7 +33,6 @@ namespace akmon
                                   std::vector<ContactPair> &pairs)
   {
     constexpr double part     = 0.25;  // of the reach: what slaves slide in a step at most
-    constexpr double furthest = 1.1;   // times the reach, with that beside it
     constexpr double in_front = -1e-6; // of the cell size, for rounding: else no valley
 
     if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
@@ -49,7 +48,7 @@ namespace akmon
     visit_neighbours(first_face, [&](const unsigned int f) {
       const MasterFace &master = masters[f];
       const FaceShape &shape   = shape_of(x, f);
-      if (!shape.rises_from(foot, normal) || shape.is_further(point, furthest * reach) ||
+      if (!shape.rises_from(foot, normal) || shape.bound_of_distance(point) > furthest * reach ||
           !opposes(master, shape, slave))
         return;
       Partner neighbour;
@@ -93,7 +92,8 @@ namespace akmon
         const auto is_turned = [&](const ContactPair &other) {
           return shape.normal * other.normal < turned * shape.area;
         };
-        if (shape.is_further(point, reach) || !opposes(masters[partner.face], shape, slave) ||
+        if (shape.bound_of_distance(point) > reach ||
+            !opposes(masters[partner.face], shape, slave) ||
             !std::all_of(pairs.begin() + first, pairs.end(), is_turned))
           continue;
         partner.projection = project(point, segment(x, masters[partner.face]));

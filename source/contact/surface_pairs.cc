@@ -89,42 +89,59 @@ namespace akmon
 
 
   // The closest candidate face that looks towards the slave's surface and is not part of it. The
-  // partner of the last search tells how close it is at least; which of equally close faces is
-  // taken does not depend on it.
+  // partner of the last search tells how close it is at least, and often that no other face can
+  // count; which of equally close faces is taken does not depend on it.
   bool
   SurfaceSearch::closest_face(const ContactNodes::Field &x,
                               const unsigned int slave,
+                              const double travelled,
+                              const double reach,
                               Partner &partner)
   {
+    constexpr double largest = std::numeric_limits<double>::max();
+
+    Memory &memory        = memories[slave];
     const auto point      = x[slaves[slave].number];
     const auto &outward   = outwards[slave];
     const double least    = -opposed * outward.norm();
     const auto looks_here = [&](const FaceShape &shape) { return shape.box[2] * outward <= least; };
-    double bound          = std::numeric_limits<double>::max();
-    const unsigned int last = last_faces[slave];
-    Projection of_last;
-    if (last != numbers::invalid_unsigned_int && looks_here(shape_of(x, last)))
+    double best = largest, bound = largest;
+    if (memory.face != numbers::invalid_unsigned_int && looks_here(shape_of(x, memory.face)))
       {
-        of_last = project(point, segment(x, masters[last]));
-        bound   = of_last.offset.norm();
+        partner.face       = memory.face;
+        partner.projection = project(point, segment(x, masters[memory.face]));
+        bound              = partner.projection.offset.norm();
+        if (memory.others_clear_of - travelled > std::max(bound, reach))
+          return true;
       }
-    double best = std::numeric_limits<double>::max();
+    const Projection of_last = partner.projection;
+    std::array<double, 2> least_bounds{{largest, largest}}; // of all faces
+    unsigned int with_least = numbers::invalid_unsigned_int;
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const unsigned int f = candidates[i];
-        const auto &shape    = shape_of(x, f);
-        if (!looks_here(shape) || (f != last && shape.is_further(point, std::min(bound, best))))
+        const unsigned int f  = candidates[i];
+        const auto &shape     = shape_of(x, f);
+        const double at_least = shape.bound_of_distance(point);
+        least_bounds[1]       = std::min(least_bounds[1], std::max(at_least, least_bounds[0]));
+        if (at_least < least_bounds[0])
+          {
+            least_bounds[0] = at_least;
+            with_least      = f;
+          }
+        if (!looks_here(shape) || (f != memory.face && at_least > std::min(bound, best)))
           continue;
-        const Projection projection = f == last ? of_last : project(point, segment(x, masters[f]));
-        const double distance       = projection.offset.norm();
-        if (distance < best)
+        const Projection projection = f == memory.face ? of_last :
+                                                         project(point, segment(x, masters[f]));
+        if (const double distance = projection.offset.norm(); distance < best)
           {
             best               = distance;
             partner.face       = f;
             partner.projection = projection;
           }
       }
-    return best < std::numeric_limits<double>::max();
+    const bool found       = best < largest;
+    memory.others_clear_of = travelled + least_bounds[found && partner.face == with_least ? 1 : 0];
+    return found;
   }
 
 
@@ -169,7 +186,7 @@ namespace akmon
     visit_neighbours(left, [&](const unsigned int f) {
       const auto corners = segment(x, masters[f]);
       const FaceShape shape(corners);
-      if (shape.is_further(point, best) || !opposes(masters[f], shape, slave) ||
+      if (shape.bound_of_distance(point) > best || !opposes(masters[f], shape, slave) ||
           (across_ridges_only && shape.rises_from(foot, normal)))
         return;
       const auto projection = project(point, corners);
@@ -262,7 +279,7 @@ namespace akmon
           continue;
         const auto around  = motion_around(s, motions);
         const double reach = std::max(least_reach, steps * around.increment);
-        if (clear_of[s] - around.way > reach)
+        if (memories[s].clear_of - around.way > reach)
           continue;
         outwards[s] = slave_normal(positions, s);
         find_pairs_of(x, s, around.way, reach, pairs);
@@ -277,23 +294,24 @@ namespace akmon
                                const double reach,
                                std::vector<ContactPair> &pairs)
   {
+    Memory &memory = memories[slave];
     Partner partner;
-    if (!closest_face(x, slave, partner))
+    if (!closest_face(x, slave, travelled, furthest * reach, partner))
       {
         // Faces around a fold may turn towards the slave.
-        last_faces[slave] = numbers::invalid_unsigned_int;
-        clear_of[slave]   = travelled + reach + 0.1 * search_radius;
+        memory.face     = numbers::invalid_unsigned_int;
+        memory.clear_of = travelled + reach + 0.1 * search_radius;
         return;
       }
-    last_faces[slave]     = partner.face;
+    memory.face           = partner.face;
     const double distance = partner.projection.offset.norm();
     // Whatever is inside stays under watch.
     const bool outside = partner.projection.offset * shapes[partner.face].normal > 0.;
-    clear_of[slave]    = outside ? travelled + distance : 0.;
+    memory.clear_of    = outside ? travelled + distance : 0.;
     if ((outside && distance > reach) || !complete(x, slave, partner))
       return;
     pairs.push_back(make_pair(x, slave, partner));
-    if (coupled && distance <= reach)
+    if (coupled && distance <= reach && memory.others_clear_of - travelled <= furthest * reach)
       {
         add_valley_pairs(x, reach, partner, pairs);
         add_corner_pairs(x, reach, pairs);

@@ -202,9 +202,9 @@ namespace akmon
             }
         }
     last_ids.clear();
-    for (const unsigned int face : last_faces)
-      last_ids.push_back(face != numbers::invalid_unsigned_int ? fetched[face].id :
-                                                                 numbers::invalid_dof_index);
+    for (const Memory &memory : memories)
+      last_ids.push_back(memory.face != numbers::invalid_unsigned_int ? fetched[memory.face].id :
+                                                                        numbers::invalid_dof_index);
     fetched = std::move(outgoing[me]);
     outgoing.erase(me);
     for (const auto &[rank, messages] : Utilities::MPI::some_to_some(communicator, outgoing))
@@ -227,7 +227,11 @@ namespace akmon
                                   const BodyMotions &motions,
                                   const double moved)
   {
-    keep_distances(motions, moved);
+    // What is known does not reach beyond the faces that have been candidates.
+    shift_distances(motions, -1.);
+    for (Memory &memory : memories)
+      for (double *const distance : {&memory.clear_of, &memory.others_clear_of})
+        *distance = std::min(*distance, built_radius - moved);
     masters.clear();
     std::vector<BoxGrid::Box> boxes; // by face
     shapes.clear();
@@ -267,8 +271,7 @@ namespace akmon
       }
     slaves.back().first_candidate = candidates.size();
     slaves.back().first_neighbour = neighbours.size();
-    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-      clear_of[s] += motion_around(s, motions).way;
+    shift_distances(motions, 1.);
     find_last_faces();
     built_radius = search_radius;
   }
@@ -291,13 +294,16 @@ namespace akmon
   }
 
 
-  // From here on counted from what has been travelled so far, and no further than is known of faces
-  // that have been no candidates.
+  // Add what has been travelled around slaves so far, a number of times.
   void
-  SurfaceSearch::keep_distances(const BodyMotions &motions, const double moved)
+  SurfaceSearch::shift_distances(const BodyMotions &motions, const double times)
   {
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-      clear_of[s] = std::min(clear_of[s] - motion_around(s, motions).way, built_radius - moved);
+      {
+        const double shift = times * motion_around(s, motions).way;
+        memories[s].clear_of += shift;
+        memories[s].others_clear_of += shift;
+      }
   }
 
 
@@ -312,7 +318,7 @@ namespace akmon
                                             [](const FaceMessage &face, const auto id) {
                                               return face.id < id;
                                             });
-        last_faces[s]    = found != fetched.end() && found->id == last_ids[s] ?
+        memories[s].face = found != fetched.end() && found->id == last_ids[s] ?
                              found - fetched.begin() :
                              numbers::invalid_unsigned_int;
       }
@@ -322,8 +328,7 @@ namespace akmon
   void
   SurfaceSearch::forget_distances()
   {
-    clear_of.assign(slaves.size(), 0.);
-    last_faces.assign(slaves.size(), numbers::invalid_unsigned_int);
+    memories.assign(slaves.size(), Memory());
     candidates.clear();
     neighbours.clear();
     for (Slave &slave : slaves)

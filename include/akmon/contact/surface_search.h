@@ -178,14 +178,14 @@ namespace akmon
         return std::max(0., std::abs(box[d] * from_middle) - half_widths[d]);
       }
 
-      // Whether a point is further from the face than a distance for certain.
-      bool
-      is_further(const dealii::Tensor<1, 3> &point, const double distance) const
+      // No point of the face is closer to a point.
+      double
+      bound_of_distance(const dealii::Tensor<1, 3> &point) const
       {
         const auto from_middle = point - middle;
         const double a = beyond(from_middle, 0), b = beyond(from_middle, 1),
                      c = beyond(from_middle, 2);
-        return a * a + b * b + c * c > distance * distance;
+        return std::sqrt(a * a + b * b + c * c);
       }
 
       bool
@@ -195,7 +195,18 @@ namespace akmon
       is_in_front_of(const dealii::Tensor<1, 3> &point, const double depth) const;
     };
 
+    static constexpr double
+      furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
+
+    // What earlier searches have found out about a slave. Distances are less what is travelled
+    // around it.
+    struct Memory
+    {
+      unsigned int face      = dealii::numbers::invalid_unsigned_int; ///< the last partner's
+      double clear_of        = 0.;                                    ///< no face is closer; length
+      double others_clear_of = 0.; ///< no other face is closer; length
+    };
 
     struct Partner
     {
@@ -220,7 +231,7 @@ namespace akmon
     void
     collect_faces_at_nodes(const unsigned int n_nodes);
     void
-    keep_distances(const BodyMotions &motions, const double moved);
+    shift_distances(const BodyMotions &motions, const double times);
     void
     find_last_faces();
     void
@@ -238,7 +249,11 @@ namespace akmon
     const FaceShape &
     shape_of(const ContactNodes::Field &x, const unsigned int face);
     bool
-    closest_face(const ContactNodes::Field &x, const unsigned int slave, Partner &partner);
+    closest_face(const ContactNodes::Field &x,
+                 const unsigned int slave,
+                 const double travelled,
+                 const double reach,
+                 Partner &partner);
     static bool
     may_face(const MasterFace &face,
              const FaceShape &shape,
@@ -286,11 +301,10 @@ namespace akmon
     std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list, candidates;
     std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
-    std::vector<unsigned int> last_faces;       ///< by slave: partner of the last search
-    std::vector<double> clear_of; ///< by slave: less what was travelled since, nothing is closer
-    std::vector<unsigned int> neighbours; ///< of slaves: the bodies of their candidates
-    std::vector<FaceMessage> fetched;     ///< sorted by id
-    std::vector<dealii::types::global_cell_index> last_ids; ///< of last_faces, between two builds
+    std::vector<Memory> memories;               ///< by slave
+    std::vector<unsigned int> neighbours;       ///< of slaves: the bodies of their candidates
+    std::vector<FaceMessage> fetched;           ///< sorted by id
+    std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
     std::vector<MasterFace> masters;                        ///< in the same order
     std::vector<FaceShape> shapes; ///< of the candidate faces, in the same numbers
     unsigned int n_searches = 0;
