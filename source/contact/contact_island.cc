@@ -15,6 +15,8 @@ namespace akmon
                         const Bonds *const bonds,
                         const double effective_mass_factor)
   {
+    constexpr std::size_t most_assembled = 32; // pairs
+
     number_nodes(members, first_common_id);
     closed_solution = members.size() == 1 && !bonds && moves_alike(pairs.front());
     delassus.reinit(pairs, mobility, effective_mass_factor);
@@ -24,6 +26,8 @@ namespace akmon
       return;
     if (bonds)
       delassus.set_bonds(*bonds, ids);
+    else if (pairs.size() <= most_assembled)
+      delassus.assemble();
     preconditioner.set_pairs(pairs, delassus, mobility, effective_mass_factor);
     problem.norm = delassus.norm_bound();
     problem.friction.clear();

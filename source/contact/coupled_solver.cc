@@ -249,9 +249,11 @@ namespace akmon
         const ClosingPair &first = closing[list.front()];
         if (first.rank != rank)
           continue;
-        auto &island     = islands[first.pair.key()];
-        const auto found = old.find(first.pair.key());
-        island = found == old.end() ? std::make_unique<Island>() : std::move(found->second);
+        // Moved as it is, which asks for no memory.
+        auto known   = old.extract(first.pair.key());
+        auto &island = (known ? islands.insert(std::move(known)).position :
+                                islands.emplace(first.pair.key(), std::make_unique<Island>()).first)
+                         ->second;
         island->members.clear();
         for (const unsigned int i : list)
           island->members.push_back(&closing[i]);

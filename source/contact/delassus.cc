@@ -49,6 +49,48 @@ namespace akmon
         frames.push_back(frame_of(pair.normal));
       }
     field.reinit(mobility->size());
+    assembled.resize(0, 0);
+  }
+
+
+  void
+  Delassus::assemble()
+  {
+    columns.clear();
+    begins.assign(1, 0);
+    for (std::size_t i = 0; i < pairs->size(); ++i)
+      {
+        const ContactPair &pair = (*pairs)[i];
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          if (const unsigned int node = pair.nodes[k]; !mobility->is_held(node))
+            {
+              Column column{node, {}, {}};
+              for (unsigned int d = 0; d < 3; ++d)
+                {
+                  column.force[d]     = pair.at_node(k, scales[i] * frames[i][d]);
+                  column.increment[d] = (*mobility)[node] * column.force[d] / mass_factor;
+                }
+              columns.push_back(column);
+            }
+        begins.push_back(columns.size());
+      }
+    assembled.setZero(3 * pairs->size(), 3 * pairs->size());
+    const auto visit_columns = [&](const std::size_t i, const auto &visit) {
+      std::for_each(columns.begin() + begins[i], columns.begin() + begins[i + 1], visit);
+    };
+    for (std::size_t i = 0; i < pairs->size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        {
+          visit_columns(i, [&](const Column &row) {
+            visit_columns(j, [&](const Column &column) {
+              if (row.node == column.node)
+                for (unsigned int c = 0; c < 3; ++c)
+                  for (unsigned int r = 0; r < 3; ++r)
+                    assembled(3 * i + r, 3 * j + c) += row.force[r] * column.increment[c];
+            });
+          });
+          assembled.block<3, 3>(3 * j, 3 * i) = assembled.block<3, 3>(3 * i, 3 * j).transpose();
+        }
   }
 
 
@@ -80,6 +122,13 @@ namespace akmon
   void
   Delassus::apply(const Vector &tau, Vector &y)
   {
+    if (assembled.size() > 0)
+      {
+        const auto n = assembled.rows();
+        Eigen::Map<Eigen::VectorXd>(y.front().begin_raw(), n)
+          .noalias() = assembled * Eigen::Map<const Eigen::VectorXd>(tau.front().begin_raw(), n);
+        return;
+      }
     field.clear();
     for (std::size_t i = 0; i < pairs->size(); ++i)
       (*pairs)[i].distribute(scales[i] * (tau[i] * frames[i]), field);

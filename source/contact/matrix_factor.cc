@@ -36,14 +36,19 @@ namespace akmon
       return sparse_lu.info() == Eigen::Success;
     }
 
-    bool
-    compute_full(const unsigned int n, const Entries &entries, const bool symmetric)
+    void
+    add_up(const unsigned int n, const Entries &entries)
     {
-      constexpr double rounding = 1e-15;
-
       matrix.setZero(n, n);
       for (const auto &entry : entries)
         matrix(entry.row(), entry.col()) += entry.value();
+    }
+
+    bool
+    compute_full(const Eigen::MatrixXd &matrix, const bool symmetric)
+    {
+      constexpr double rounding = 1e-15;
+
       kind = symmetric ? Kind::cholesky : Kind::lu;
       if (symmetric)
         return cholesky.compute(matrix).info() == Eigen::Success;
@@ -68,8 +73,17 @@ namespace akmon
   {
     constexpr unsigned int most_full = 170; // rows
 
-    return n > most_full ? factors->compute_sparse(n, entries, symmetric) :
-                           factors->compute_full(n, entries, symmetric);
+    if (n > most_full)
+      return factors->compute_sparse(n, entries, symmetric);
+    factors->add_up(n, entries);
+    return factors->compute_full(factors->matrix, symmetric);
+  }
+
+
+  bool
+  MatrixFactor::compute(const Eigen::MatrixXd &matrix, const bool symmetric)
+  {
+    return factors->compute_full(matrix, symmetric);
   }
 
 

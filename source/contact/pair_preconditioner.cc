@@ -33,16 +33,24 @@ namespace akmon
     delassus    = &new_delassus;
     mobility    = &new_mobility;
     mass_factor = new_mass_factor;
+    closed.clear();
+    if (is_assembled())
+      {
+        groups.resize(1);
+        if (!groups.front())
+          groups.front() = std::make_unique<Group>();
+        groups.front()->clear();
+      }
     for (const auto &group : groups)
       group->old = true;
-    closed.clear();
   }
 
 
   bool
   PairPreconditioner::is_old() const
   {
-    return std::any_of(groups.begin(), groups.end(), [](const auto &group) { return group->old; });
+    return !is_assembled() &&
+           std::any_of(groups.begin(), groups.end(), [](const auto &group) { return group->old; });
   }
 
 
@@ -50,7 +58,11 @@ namespace akmon
   PairPreconditioner::reinit(const std::vector<CoulombFace> &faces, const double new_shift)
   {
     if (shift != new_shift)
-      forget();
+      {
+        closed.clear();
+        if (!is_assembled())
+          forget();
+      }
     shift = new_shift;
     std::vector<unsigned int> now_closed;
     for (unsigned int i = 0; i < pairs->size(); ++i)
@@ -59,6 +71,12 @@ namespace akmon
     if (!groups.empty() && now_closed == closed && all_serve(faces))
       return;
     closed = std::move(now_closed);
+    if (is_assembled())
+      {
+        groups.front()->clear();
+        make_group(closed, faces, *groups.front());
+        return;
+      }
     std::map<Key, std::unique_ptr<Group>> old_groups;
     for (auto &group : groups)
       old_groups[group->members.front().key] = std::move(group);
@@ -152,8 +170,46 @@ namespace akmon
           {(*pairs)[i].key(), faces[i], i, group.n_rows, Directions(faces[i])});
         group.n_rows += group.members.back().directions.n;
       }
+    if (is_assembled())
+      {
+        factorize_full(group);
+        return;
+      }
     collect_entries(group);
     factorize(group);
+  }
+
+
+  bool
+  PairPreconditioner::is_symmetric(const Group &group)
+  {
+    return std::none_of(group.members.begin(), group.members.end(), [](const Member &member) {
+      return member.face.tangential == CoulombFace::Tangential::circle && member.face.mu != 0.;
+    });
+  }
+
+
+  void
+  PairPreconditioner::factorize_full(Group &group)
+  {
+    const auto &A = delassus->matrix();
+    jacobian.resize(group.n_rows, group.n_rows);
+    for (const Member &of_column : group.members)
+      for (unsigned int j = 0; j < of_column.directions.n; ++j)
+        {
+          const auto force = of_column.face.lift(of_column.directions.e[j]);
+          values.noalias() = A.middleCols<3>(3 * of_column.pair) *
+                             Eigen::Map<const Eigen::Vector3d>(force.begin_raw());
+          for (const Member &of_row : group.members)
+            for (unsigned int i = 0; i < of_row.directions.n; ++i)
+              {
+                const Eigen::Map<const Eigen::Vector3d> e(of_row.directions.e[i].begin_raw());
+                jacobian(of_row.row + i,
+                         of_column.row + j) = e.dot(values.segment<3>(3 * of_row.pair));
+              }
+          jacobian(of_column.row + j, of_column.row + j) += shift + of_column.curvature_along(j);
+        }
+    group.valid = group.n_rows > 0 && group.factor.compute(jacobian, is_symmetric(group));
   }
 
 
@@ -190,13 +246,7 @@ namespace akmon
   {
     constexpr double rounding = 1e-12; // of what is zero between orthogonal directions
 
-    const bool symmetric = std::none_of(group.members.begin(),
-                                        group.members.end(),
-                                        [](const Member &member) {
-                                          return member.face.tangential ==
-                                                   CoulombFace::Tangential::circle &&
-                                                 member.face.mu != 0.;
-                                        });
+    const bool symmetric = is_symmetric(group);
     triplets.clear();
     const auto add = [&](const Entry &row, const Entry &column) {
       if (const double value = column.force * row.increment; std::abs(value) > rounding)
@@ -204,13 +254,7 @@ namespace akmon
     };
     for (const Member &member : group.members)
       for (unsigned int j = 0; j < member.directions.n; ++j)
-        {
-          const bool turns = member.face.tangential == CoulombFace::Tangential::circle &&
-                             member.directions.e[j] == member.face.along;
-          triplets.emplace_back(member.row + j,
-                                member.row + j,
-                                shift + (turns ? member.face.curvature : 0.));
-        }
+        triplets.emplace_back(member.row + j, member.row + j, shift + member.curvature_along(j));
     auto of_node = entries.cbegin();
     for (auto entry = entries.cbegin(); entry != entries.cend(); ++entry)
       {

@@ -167,6 +167,14 @@ namespace
       report("bound over norm", bound / largest);
       EXPECT_GE(bound, largest * (1. - 1e-12));
       EXPECT_LE(bound, 4. * largest);
+
+      delassus.assemble();
+      EXPECT_EQ(delassus.matrix().rows(), 3 * static_cast<int>(n));
+      EXPECT_LE((delassus.matrix() - delassus.matrix().transpose()).norm(), 1e-13 * largest);
+      std::vector<Vector> by_matrix(n);
+      delassus.apply(a, by_matrix);
+      for (std::size_t i = 0; i < n; ++i)
+        EXPECT_LE((by_matrix[i] - Aa[i]).norm(), 1e-13 * std::sqrt(dot(Aa, Aa)));
     }
   };
 

@@ -104,6 +104,12 @@ namespace
         }
     }
 
+    static bool
+    is_exact()
+    {
+      return false;
+    }
+
     std::vector<CoulombFace> faces;
   };
 

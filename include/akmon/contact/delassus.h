@@ -4,6 +4,8 @@
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/pair.h>
 
+#include <Eigen/Core>
+#include <array>
 #include <vector>
 
 namespace akmon
@@ -12,7 +14,8 @@ namespace akmon
 
   /**
    * The Delassus operator A = G m*^{-1} G^T (65)(76) of a set of pairs, applied without being
-   * assembled: forces to nodes, increments of nodes, relative increments of pairs. Scaled so that
+   * assembled: forces to nodes, increments of nodes, relative increments of pairs; or as a matrix,
+   * where pairs are so few that it takes less. Scaled so that
    * its diagonal along the normals is one, which preconditions the solvers: unknowns are
    * tau_i = t_i/s_i with s_i = (n . A_ii n)^{-1/2}, results are s_i times relative increments.
    * Sums are in the order of the pairs.
@@ -31,6 +34,17 @@ namespace akmon
     reinit(const std::vector<ContactPair> &pairs,
            const Mobility &mobility,
            const double mass_factor);
+
+    /// Make the matrix; to come after reinit(), instead of set_bonds().
+    void
+    assemble();
+
+    /// Rows and columns: three for each pair, in its frame. Empty if it has not been assembled.
+    const Eigen::MatrixXd &
+    matrix() const
+    {
+      return assembled;
+    }
 
     /// Take the constraints of bonds out of the nodes' motion. Both are referred to.
     /// @param ids  of the nodes
@@ -64,6 +78,14 @@ namespace akmon
     apply(const Vector &tau, Vector &y);
 
   private:
+    // What unit forces along the axes of a pair do to one of its nodes, s_i N_ik e, and the
+    // increments of that node, m*^{-1} s_i N_ik e.
+    struct Column
+    {
+      unsigned int node;
+      std::array<dealii::Tensor<1, 3>, 3> force, increment;
+    };
+
     const std::vector<ContactPair> *pairs    = nullptr;
     const Mobility *mobility                 = nullptr;
     const Bonds *bonds                       = nullptr;
@@ -72,5 +94,8 @@ namespace akmon
     std::vector<double> scales;
     std::vector<dealii::Tensor<2, 3>> frames;
     ContactNodes::Field field;
+    Eigen::MatrixXd assembled;
+    std::vector<Column> columns;      ///< of all pairs' nodes that can move
+    std::vector<unsigned int> begins; ///< in columns, by pair, and one past the end
   };
 } // namespace akmon

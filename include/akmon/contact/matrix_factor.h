@@ -27,6 +27,10 @@ namespace akmon
     bool
     compute(const unsigned int n, const Entries &entries, const bool symmetric);
 
+    /// The same of a full matrix, of which only the lower triangle counts if it is symmetric.
+    bool
+    compute(const Eigen::MatrixXd &matrix, const bool symmetric);
+
     void
     solve_in_place(Eigen::VectorXd &values) const;
 

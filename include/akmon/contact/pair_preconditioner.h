@@ -27,7 +27,8 @@ namespace akmon
    * body couples all its pairs by six unknowns, which cost as many iterations at most: it counts on
    * the diagonal only. Pairs that share nodes, directly or through others, are a group with a
    * factor of its own, which is kept, from step to step too, while its free directions are about
-   * the same: weights and normals that have changed a little make it no worse.
+   * the same: weights and normals that have changed a little make it no worse. Of an operator that
+   * has been assembled all pairs are one group, whose factor is exact and made anew in every step.
    */
   class PairPreconditioner
   {
@@ -49,6 +50,13 @@ namespace akmon
     forget()
     {
       groups.clear();
+    }
+
+    /// Whether apply() gives J^{-1} r to rounding.
+    bool
+    is_exact() const
+    {
+      return is_assembled() && groups.front()->valid;
     }
 
     /// Whether factors made for earlier pairs are in use.
@@ -88,6 +96,15 @@ namespace akmon
       unsigned int pair; ///< its number
       unsigned int row;  ///< its first one
       Directions directions;
+
+      // What turning along the circle adds, for direction number j.
+      double
+      curvature_along(const unsigned int j) const
+      {
+        return face.tangential == CoulombFace::Tangential::circle && directions.e[j] == face.along ?
+                 face.curvature :
+                 0.;
+      }
     };
 
     // Pairs that share nodes, and their factor.
@@ -98,6 +115,14 @@ namespace akmon
       MatrixFactor factor;
       bool valid = false; ///< whether J could be factorized
       bool old   = false; ///< whether it was made for other pairs
+
+      void
+      clear()
+      {
+        members.clear();
+        n_rows = 0;
+        valid  = false;
+      }
     };
 
     // What a unit force along a free direction, and the force of slip that follows it, does to a
@@ -109,6 +134,11 @@ namespace akmon
       dealii::Tensor<1, 3> force, increment;
     };
 
+    bool
+    is_assembled() const
+    {
+      return delassus->matrix().size() > 0;
+    }
     bool
     is_closed(const unsigned int pair, const std::vector<CoulombFace> &faces) const;
     bool
@@ -123,10 +153,14 @@ namespace akmon
     make_group(const std::vector<unsigned int> &list,
                const std::vector<CoulombFace> &faces,
                Group &group);
+    static bool
+    is_symmetric(const Group &group);
     void
     collect_entries(const Group &group);
     void
     factorize(Group &group);
+    void
+    factorize_full(Group &group);
 
     double shift                          = 0.;
     const std::vector<ContactPair> *pairs = nullptr;
@@ -138,5 +172,6 @@ namespace akmon
     std::vector<Entry> entries;     ///< of the group in work, by node and row
     MatrixFactor::Entries triplets; ///< of the group in work
     Eigen::VectorXd values;
+    Eigen::MatrixXd jacobian; ///< of an assembled operator
   };
 } // namespace akmon

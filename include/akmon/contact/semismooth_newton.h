@@ -31,7 +31,7 @@ namespace akmon
    * Where no solution is found friction is what is wrong, not gaps (close_gaps).
    *
    * Operator has apply(t, y): y = A t. Preconditioner has reinit(faces, c) and then apply(r, z): z
-   * close to (A + curvatures + c)^{-1} r in the free directions.
+   * close to (A + curvatures + c)^{-1} r in the free directions, or is_exact().
    */
   template <typename Operator, typename Preconditioner>
   class SemismoothNewton
@@ -81,7 +81,7 @@ namespace akmon
       if (!data->start_is_reference)
         faces.clear();
       faces.resize(n);
-      for (Vector *const v : {&r, &direction, &image})
+      for (Vector *const v : {&r, &direction, &image, &remainder})
         v->resize(n);
       problem.set_reference(data->start_is_reference ? t : Vector(n));
       double residual = solve_with(data->compliance, 4, Effort::usual, t);
@@ -329,32 +329,49 @@ namespace akmon
     void
     newton_step(Vector &t, const double reduction)
     {
-      constexpr unsigned int dimension = 80;
-
       double weighted = 0.;
       for (std::size_t i = 0; i < t.size(); ++i)
         {
           r[i]     = -faces[i].restrict_to(problem.motion()[i]);
           weighted = std::max(weighted, data->weights[i] * r[i].norm());
         }
+      precondition->reinit(faces, problem.get_compliance());
+      if (precondition->is_exact())
+        {
+          precondition_on_faces(r, direction);
+          apply_on_faces(direction, image, remainder);
+        }
+      else
+        solve_on_faces(reduction, weighted);
+      for (std::size_t i = 0; i < t.size(); ++i)
+        t[i] += direction[i];
+      problem.update(image);
+    }
+
+    // By GMRES: direction and image.
+    void
+    solve_on_faces(const double reduction, const double weighted)
+    {
+      constexpr unsigned int dimension = 80;
+
       const double norm = std::sqrt(Gmres::product(r, r));
       const double goal = weighted > 0. ? 0.15 * data->tolerance / weighted : 1.;
-      precondition->reinit(faces, problem.get_compliance());
       gmres.solve([&](Vector &p, Vector &of_p, Vector &y) { apply_on_faces(p, of_p, y); },
-                  [&](const Vector &v, Vector &z) {
-                    precondition->apply(v, z);
-                    for (std::size_t i = 0; i < v.size(); ++i)
-                      z[i] = faces[i].restrict_to(z[i]);
-                  },
+                  [&](const Vector &v, Vector &z) { precondition_on_faces(v, z); },
                   r,
                   std::max(reduction, goal) * norm,
                   std::min(dimension,
                            most_applications -
                              std::min(problem.applications(), most_applications)));
       gmres.combine(direction, image);
-      for (std::size_t i = 0; i < t.size(); ++i)
-        t[i] += direction[i];
-      problem.update(image);
+    }
+
+    void
+    precondition_on_faces(const Vector &v, Vector &z)
+    {
+      precondition->apply(v, z);
+      for (std::size_t i = 0; i < v.size(); ++i)
+        z[i] = faces[i].restrict_to(z[i]);
     }
 
     // Takes p from its free components to changes of forces.
@@ -378,6 +395,6 @@ namespace akmon
     unsigned int most_applications = 0;
     unsigned int n_relaxations     = 0; ///< in the next relaxation
     std::vector<CoulombFace> faces;
-    Vector t_best, t_of_limits, r, direction, image;
+    Vector t_best, t_of_limits, r, direction, image, remainder;
   };
 } // namespace akmon

@@ -1,0 +1,70 @@
+#include <akmon/contact/body_motions.h>
+
+#include <gtest/gtest.h>
+
+#include "support/coupled_boxes.h"
+
+// What the search is told of the motion of two bodies.
+
+namespace
+{
+  using namespace akmon;
+  using namespace akmon::test;
+
+  // The first body flies with (3, 0, 4), one of its nodes with (0, 0, 2) more; the other rests.
+  struct Flight
+  {
+    Flight()
+      : boxes(2, 3, 0., false)
+      , motions(boxes.discretization)
+    {
+      bool first = true;
+      for (unsigned int node = 0; node < boxes.discretization.n_owned_nodes; ++node)
+        if (boxes.discretization.body_of_node[node] == 0)
+          {
+            for (unsigned int d = 0; d < 3; ++d)
+              {
+                const double v               = d == 0 ? 3. : d == 2 ? (first ? 6. : 4.) : 0.;
+                boxes.state.dx[3 * node + d] = boxes.state.dx_next[3 * node + d] = v;
+              }
+            first = false;
+            ++n_nodes;
+          }
+      motions.measure(boxes.state);
+    }
+
+    Boxes boxes;
+    BodyMotions motions;
+    double n_nodes = 0.;
+  };
+
+
+  TEST(BodyMotions, are_those_of_the_fastest_node)
+  {
+    Flight flight;
+    EXPECT_NEAR(flight.motions.largest(), std::sqrt(45.), 1e-14);
+    EXPECT_NEAR(flight.motions.of(0).increment, std::sqrt(45.), 1e-14);
+    EXPECT_EQ(flight.motions.of(1).increment, 0.);
+    flight.motions.measure(flight.boxes.state);
+    EXPECT_NEAR(flight.motions.of(0).way, 2. * std::sqrt(45.), 1e-13);
+    EXPECT_EQ(flight.motions.of(1).way, 0.);
+  }
+
+
+  TEST(BodyMotions, within_a_body_are_seen_from_its_mean_motion)
+  {
+    Flight flight;
+    EXPECT_NEAR(flight.motions.within(0).increment, 2. * (1. - 1. / flight.n_nodes), 1e-14);
+    EXPECT_EQ(flight.motions.within(1).increment, 0.);
+  }
+
+
+  TEST(BodyMotions, are_handed_on_to_neighbours)
+  {
+    Flight flight;
+    flight.motions.set_neighbours({{{1, 0}}, {{1, 1}}, {{1, 0}}});
+    EXPECT_NEAR(flight.motions.of(1).increment, std::sqrt(45.), 1e-14);
+    EXPECT_NEAR(flight.motions.within(1).increment, std::sqrt(45.), 1e-14);
+    EXPECT_EQ(flight.motions.of(1).way, 0.);
+  }
+} // namespace
