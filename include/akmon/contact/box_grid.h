@@ -75,7 +75,8 @@ namespace akmon
 
       double sum = 0.;
       for (const auto &box : boxes)
-        sum += extent(box);
+        if (is_finite(box))
+          sum += extent(box);
       size = sum > 0. ? sum / boxes.size() : 1.;
       while (number_of_cells() > most_cells * boxes.size())
         size *= 2.;
@@ -87,13 +88,22 @@ namespace akmon
     {
       double sum = 0.;
       for (const auto &box : boxes)
-        {
-          double n = 1.;
-          for (unsigned int d = 0; d < 3; ++d)
-            n *= 1. + (box.upper[d] - box.lower[d]) / size;
-          sum += n;
-        }
+        if (is_finite(box))
+          {
+            double n = 1.;
+            for (unsigned int d = 0; d < 3; ++d)
+              n *= 1. + (box.upper[d] - box.lower[d]) / size;
+            sum += n;
+          }
       return sum;
+    }
+
+    // Not so where a run fails.
+    static bool
+    is_finite(const Box &box)
+    {
+      const auto extents = box.upper - box.lower;
+      return std::isfinite(extents[0] + extents[1] + extents[2]);
     }
 
     static double
@@ -131,7 +141,7 @@ namespace akmon
     visit_entries(const Visit &visit) const
     {
       for (unsigned int box = 0; box < boxes.size(); ++box)
-        if (std::isfinite(extent(boxes[box]))) // not what a run that fails leads to
+        if (is_finite(boxes[box]))
           {
             const Cell first = cell_of(boxes[box].lower), last = cell_of(boxes[box].upper);
             for (std::int64_t i = first[0]; i <= last[0]; ++i)
