@@ -196,4 +196,8 @@ namespace akmon::test
   // The master cube is shifted along the face: one slave node is opposite to it, at
   // (xi, eta) = (-0.2, -0.4): N = 0.6 0.7, 0.4 0.7, 0.4 0.3, 0.6 0.3 in some order.
   inline const Vector one_node_overlaps({0., 0.6, 0.7});
+
+  // The same at a gap that is within the reach of slaves at rest.
+  inline constexpr double gap_within_reach = 0.004;
+  inline const Vector overlaps_closely({gap_within_reach - initial_gap, 0.6, 0.7});
 } // namespace akmon::test

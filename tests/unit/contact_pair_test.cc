@@ -16,7 +16,7 @@ namespace
 
   TEST(OnePair, HasTheWeightsNormalAndGapOfTheProjection)
   {
-    TwoCubes cubes(one_node_overlaps, Vector(), Vector(), contact_law(to_segment, 0.));
+    TwoCubes cubes(overlaps_closely, Vector(), Vector(), contact_law(to_segment, 0.));
     ASSERT_EQ(cubes.contact.get_pairs().size(), 1u);
     const auto &pair = cubes.contact.get_pairs()[0];
     EXPECT_LE((at_node(cubes.state.x, pair.slave) - Vector({0.5, 0.5, 0.5})).norm(), 1e-15);
@@ -31,7 +31,7 @@ namespace
     for (unsigned int k = 0; k < 4; ++k)
       EXPECT_NEAR(N[k], expected[k], 1e-14);
     EXPECT_LE((pair.normal - Vector({-1., 0., 0.})).norm(), 1e-15);
-    EXPECT_NEAR(pair.gap, initial_gap, 1e-15);
+    EXPECT_NEAR(pair.gap, gap_within_reach, 1e-15);
     EXPECT_NEAR(pair.size, 1., 1e-15);
     EXPECT_EQ(pair.normal_force, 0.);
   }
@@ -39,7 +39,7 @@ namespace
 
   TEST(OnePair, ImpactClosesTheGapExactlyAndExchangesMomentum)
   {
-    // Approach at 0.7: the gap of 0.01 would be overrun in the first step of 0.1.
+    // Approach at 0.7: the gap would be overrun in the first step of 0.1.
     TwoCubes cubes(one_node_overlaps,
                    Vector({0.5, 0., 0.}),
                    Vector({-0.2, 0., 0.}),
@@ -69,7 +69,7 @@ namespace
 
   TEST(OnePair, ForceLawHoldsInLaterStepsToo)
   {
-    // At 0.07 the gap of 0.01 closes in the second step: m* = m/dt^2, t_n = -(n G dx_f + g)/A.
+    // At 0.07 the gap closes in the second step: m* = m/dt^2, t_n = -(n G dx_f + g)/A.
     TwoCubes cubes(one_node_overlaps,
                    Vector({0.05, 0., 0.}),
                    Vector({-0.02, 0., 0.}),
@@ -277,19 +277,21 @@ namespace
   {
     // The slave node is put 0.02 deep at rest: 1e-3 of it is taken back in a step.
     const double released = 1e-3, c = std::sqrt(1. / 8.);
-    TwoCubes cubes(one_node_overlaps,
+    TwoCubes cubes(overlaps_closely,
                    Vector(),
                    Vector(),
                    contact_law(to_segment, 0.),
                    {},
                    released / (c * dt));
+    ASSERT_EQ(cubes.contact.get_pairs().size(), 1u);
     const unsigned int slave = cubes.contact.get_pairs()[0].slave;
-    cubes.state.x.local_element(3 * slave) += initial_gap + 0.02;
+    cubes.state.x.local_element(3 * slave) += gap_within_reach + 0.02;
     // The master face turns as its corners are pushed unevenly: gaps are linear but for 1e-9.
     double depth = 0.02;
     for (unsigned int n = 0; n < 5; ++n)
       {
         cubes.step();
+        ASSERT_EQ(cubes.contact.get_pairs().size(), 1u);
         const auto &pair = cubes.contact.get_pairs()[0];
         EXPECT_NEAR(pair.gap, -depth, 1e-9) << n;
         EXPECT_GE(pair.normal * cubes.relative(pair, cubes.state.dx_next), released * (1. - 1e-12));
