@@ -186,7 +186,7 @@ namespace akmon
         std::array<hsize_t, 2> n = {{std::min(slab, n_rows - row), width}};
         values.resize(std::max<std::size_t>(1, n[0] * width));
         for (std::size_t i = 0; i < n[0]; ++i)
-          fill(row + i, &values[i * width]);
+          fill(row + i, values.data() + i * width);
         const Hdf5Id memory(H5Screate_simple(2, n.data(), nullptr), H5Sclose, what);
         if (n[0] == 0)
           {
@@ -341,7 +341,7 @@ namespace akmon
         check_hdf5(H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, H5P_DEFAULT, values.data()),
                    what);
         for (std::size_t i = 0; i < n[0]; ++i)
-          take(row + i, &values[i * width]);
+          take(row + i, values.data() + i * width);
         row += n[0];
       }
   }

@@ -1,15 +1,18 @@
 #include <akmon/model/body_mesh.h>
 #include <akmon/model/global_mesh.h>
 
+#include <deal.II/base/bounding_box.h>
+#include <deal.II/base/utilities.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_q.h>
 #include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
-#include <deal.II/lac/sparsity_tools.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <iterator>
+#include <utility>
 
 namespace akmon
 {
@@ -109,15 +112,61 @@ namespace akmon
     }
 
 
-    // The coarse cells so that close ones have close numbers.
-    std::vector<types::global_dof_index>
+    // Points in their order along Hilbert's curve. Its finest cubes are parts of cubes of the given
+    // size, so that the cells of a regular mesh come in blocks of 2 x 2 x 2, these of
+    // 4 x 4 x 4 and so on.
+    std::vector<unsigned int>
+    order_along_curve(const std::vector<Point<3>> &points, const double size)
+    {
+      constexpr int bits = 21; // a direction: three of them are one number
+
+      const BoundingBox<3> box(points);
+      double longest = 0.;
+      for (unsigned int d = 0; d < 3; ++d)
+        longest = std::max(longest, box.side_length(d));
+      const double scale = std::ldexp(1. / size, bits - 1 - std::ilogb(longest / size + 1.));
+      std::vector<std::array<std::uint64_t, 3>> places(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        for (unsigned int d = 0; d < 3; ++d)
+          places[i][d] = (points[i][d] - box.lower_bound(d) + 0.5 * size) * scale;
+      places = Utilities::inverse_Hilbert_space_filling_curve<3>(places, bits);
+
+      std::vector<std::pair<std::uint64_t, unsigned int>> along;
+      along.reserve(points.size());
+      for (std::size_t i = 0; i < points.size(); ++i)
+        along.emplace_back(Utilities::pack_integers<3>(places[i], bits), i);
+      std::sort(along.begin(), along.end());
+      std::vector<unsigned int> order;
+      order.reserve(points.size());
+      for (const auto &[place, point] : along)
+        order.push_back(point);
+      return order;
+    }
+
+
+    // The coarse cells body by body, close ones with close numbers. As they are created, those of a
+    // body come one after the other.
+    std::vector<unsigned int>
     order_coarse_cells(const Triangulation<3> &triangulation)
     {
-      DynamicSparsityPattern neighbours;
-      GridTools::get_vertex_connectivity_of_cells(triangulation, neighbours);
-      std::vector<types::global_dof_index> place(triangulation.n_active_cells());
-      SparsityTools::reorder_hierarchical(neighbours, place);
-      return Utilities::invert_permutation(place);
+      std::vector<unsigned int> order;
+      order.reserve(triangulation.n_cells(0));
+      for (auto cell = triangulation.begin(0); cell != triangulation.end(0);)
+        {
+          const unsigned int first = cell->index();
+          const auto body          = cell->material_id();
+          double volume            = 0.;
+          std::vector<Point<3>> centres;
+          for (; cell != triangulation.end(0) && cell->material_id() == body; ++cell)
+            {
+              centres.push_back(cell->center());
+              volume += cell->measure();
+            }
+          for (const unsigned int i :
+               order_along_curve(centres, std::cbrt(volume / centres.size())))
+            order.push_back(first + i);
+        }
+      return order;
     }
 
 
@@ -226,7 +275,7 @@ namespace akmon
 
     Curve curve;
     curve.reserve(triangulation.n_active_cells());
-    for (const auto cell : coarse_cells)
+    for (const unsigned int cell : coarse_cells)
       follow_curve(Triangulation<3>::cell_iterator(&triangulation, 0, cell), curve);
 
     const FE_Q<3> trilinear(1); // a number for each node

@@ -33,9 +33,8 @@ namespace akmon
 
 
   /**
-   * All bodies as disconnected parts of one mesh of Q1 hexes. Cells and nodes are numbered along a
-   * space-filling curve: a cell comes after its neighbours on the curve, a node when the first of
-   * its cells does.
+   * All bodies as disconnected parts of one mesh of Q1 hexes. Cells are numbered body by body along
+   * a space-filling curve, nodes in the order in which the cells come upon them.
    */
   struct GlobalMesh
   {

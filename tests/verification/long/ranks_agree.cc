@@ -87,14 +87,13 @@ namespace
   }
 
 
-  // All columns but the sums over cells, nodes and pairs of all ranks: energies, momenta, and the
-  // force of an obstacle (the slaves of the bars' interface are on one rank, its force is of
-  // motion).
+  // All columns but the sums over cells, nodes and pairs of all ranks: energies, momenta and
+  // forces.
   bool
   of_motion(const std::string &column)
   {
     if (column.find(".force_") != std::string::npos)
-      return starts_with(column, "interface.");
+      return false;
     return column == "time" || column == "dt" || starts_with(column, "max_penetration") ||
            ends_with(column, "_pairs") || column.find('.') != std::string::npos;
   }
