@@ -226,6 +226,7 @@ namespace akmon
   {
     const ContactNodes::Id n_ids = nodes.first_common_id() + nodes.size() - nodes.first_common();
     std::vector<unsigned int> last_at(n_ids + 1, numbers::invalid_unsigned_int);
+    std::vector<bool> bonded(closing.size());
     UnitedSets sets(closing.size());
     const auto meet = [&](const unsigned int i, const ContactNodes::Id node) {
       if (last_at[node] != numbers::invalid_unsigned_int)
@@ -237,7 +238,8 @@ namespace akmon
         for (unsigned int k = 0; k < closing[i].pair.n_nodes; ++k)
           if (trace(closing[i].mobility[k]) > 0.)
             meet(i, closing[i].ids[k]);
-        if (is_bonded(closing[i]))
+        bonded[i] = is_bonded(closing[i]);
+        if (bonded[i])
           meet(i, n_ids);
       }
 
@@ -260,12 +262,12 @@ namespace akmon
         // Pairs only join during a step.
         if (island->of_this_step && island->get_pairs().size() == list.size())
           continue;
-        const bool bonded = std::any_of(list.begin(), list.end(), [&](const auto i) {
-          return is_bonded(closing[i]);
+        const bool any_bonded = std::any_of(list.begin(), list.end(), [&](const auto i) {
+          return bonded[i];
         });
         island->reinit(island->members,
                        nodes.first_common_id(),
-                       bonded ? bonds : nullptr,
+                       any_bonded ? bonds : nullptr,
                        mass_factor);
         island->of_this_step = true;
         island->is_solved    = false;
