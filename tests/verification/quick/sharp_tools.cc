@@ -1,14 +1,11 @@
-#include <akmon/contact/projection.h>
-
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 
 #include "support/kept_run.h"
 #include "support/rank_case.h"
 #include "support/report.h"
-#include "support/triangles.h"
+#include "support/sharp_tool.h"
 
 // Sharp corners and edges of rigid tools against a slab 1 x 1 x 1/2 whose faces, 1/4 wide, are
 // larger than the tools or crossed by their edges: no node of the slab sees them.
@@ -17,187 +14,6 @@ using namespace akmon::test;
 
 namespace
 {
-  constexpr double h = 0.25, start_gap = 0.001;
-
-  const std::string slab = R"(
-subsection Time
-  set End  = 0.05
-  set Step = 2e-4
-end
-subsection Materials
-  set Names = soft
-  subsection soft
-    set Density         = 1000
-    set Young's modulus = 1e6
-    set Poisson's ratio = 0.3
-  end
-end
-subsection Bodies
-  set Names = slab
-  subsection slab
-    set Material = soft
-    set Shape    = box
-    set Position = 0, 0, -0.25
-    subsection Box
-      set Size  = 1, 1, 0.5
-      set Cells = 4, 4, 2
-    end
-  end
-end
-subsection Obstacles
-  set Names = tool
-  subsection tool
-    set Surfaces = slab:all
-  end
-end
-subsection Prescribed motion
-  set Names = base
-  subsection base
-    set Type     = displacement
-    set Surfaces = slab:z-
-  end
-end
-)";
-
-  using List = std::vector<std::string>;
-
-
-  // A case without the section that holds the slab.
-  std::string
-  without_base(const std::string &text)
-  {
-    const auto begin = text.find("subsection Prescribed motion"),
-               end   = text.find("\nend\n", begin) + 5;
-    return text.substr(0, begin) + text.substr(end);
-  }
-
-
-  // The tip of a steep pyramid at the origin of its frame, looking down.
-  akmon::TriangleMesh
-  pyramid()
-  {
-    akmon::TriangleMesh mesh;
-    mesh.vertices  = {Vector({0., 0., 0.}),
-                      Vector({-0.1, -0.1, 0.3}),
-                      Vector({0.1, -0.1, 0.3}),
-                      Vector({0.1, 0.1, 0.3}),
-                      Vector({-0.1, 0.1, 0.3})};
-    mesh.triangles = {{{0, 2, 1}}, {{0, 3, 2}}, {{0, 4, 3}}, {{0, 1, 4}}, {{1, 2, 3}}, {{1, 3, 4}}};
-    return mesh;
-  }
-
-
-  // A tool whose lowest corner or edge is to begin a little above the slab.
-  struct Tool
-  {
-    std::string name;
-    List shape; ///< keys of its section; none: the pyramid
-    double x, y;
-  };
-
-
-  class ToolCase
-  {
-  public:
-    ToolCase(const Tool &tool, const List &more, const std::string &text = slab)
-      : file(scratch.path + "/slab.prm")
-    {
-      std::ofstream(file) << text;
-      std::ofstream(scratch.path + "/tip.stl") << ascii_stl(pyramid());
-      if (tool.shape.empty())
-        overrides = {"Obstacles/tool/Shape=file",
-                     "Obstacles/tool/File/Name=" + scratch.path + "/tip.stl"};
-      for (const auto &key : tool.shape)
-        overrides.push_back("Obstacles/tool/" + key);
-      overrides.insert(overrides.end(), more.begin(), more.end());
-      double lowest = 1e300;
-      for (const auto &corner : corners({}))
-        lowest = std::min(lowest, corner[2]);
-      overrides.push_back("Obstacles/tool/Point=" + akmon::shortest_text(tool.x) + ", " +
-                          akmon::shortest_text(tool.y) + ", " +
-                          akmon::shortest_text(start_gap - lowest));
-    }
-
-    // Places of its corners, displaced.
-    std::vector<Vector>
-    corners(const Vector &displacement) const
-    {
-      const auto obstacle = akmon::Case::read(file, overrides).obstacles[0];
-      std::vector<Vector> places;
-      for (const auto &vertex : obstacle.shape->sharp_features().vertices)
-        places.push_back(obstacle.start.place + displacement +
-                         obstacle.start.orientation.matrix() * vertex.place);
-      return places;
-    }
-
-    // Many points of its edges, displaced.
-    std::vector<Vector>
-    edge_points(const Vector &displacement) const
-    {
-      constexpr unsigned int n = 2000;
-      const auto obstacle      = akmon::Case::read(file, overrides).obstacles[0];
-      const auto R             = obstacle.start.orientation.matrix();
-      std::vector<Vector> places;
-      for (const auto &edge : obstacle.shape->sharp_features().edges)
-        for (unsigned int i = 0; i <= n; ++i)
-          places.push_back(obstacle.start.place + displacement +
-                           R *
-                             ((1. - i / double(n)) * edge.ends[0] + i / double(n) * edge.ends[1]));
-      return places;
-    }
-
-    KeptRun
-    run(const List &more) const
-    {
-      List all = overrides;
-      all.insert(all.end(), more.begin(), more.end());
-      return run_and_keep(file, all);
-    }
-
-    const ScratchDirectory scratch;
-    const std::string file;
-    List overrides;
-  };
-
-
-  // How deep a point is below the top of the slab, straight down; negative above it and beside it.
-  double
-  depth_below_top(const akmon::Simulation &simulation, const Vector &p)
-  {
-    const auto &model = simulation.model();
-    double depth      = -1.;
-    for (const auto &face : model.faces_on(model.boundary_ids("", "", "slab:z+")))
-      {
-        akmon::Segment corners;
-        for (unsigned int k = 0; k < 4; ++k)
-          corners[k] = akmon::at_node(simulation.current_state().x, face.nodes[k]);
-        // Newton for (xi, eta) above which the point is.
-        double xi = 0., eta = 0.;
-        Vector r;
-        for (unsigned int i = 0; i < 20; ++i)
-          {
-            const double N[4] = {0.25 * (1. - xi) * (1. - eta),
-                                 0.25 * (1. + xi) * (1. - eta),
-                                 0.25 * (1. + xi) * (1. + eta),
-                                 0.25 * (1. - xi) * (1. + eta)};
-            r                 = -p;
-            for (unsigned int k = 0; k < 4; ++k)
-              r += N[k] * corners[k];
-            const auto a     = 0.25 * ((1. - eta) * (corners[1] - corners[0]) +
-                                   (1. + eta) * (corners[2] - corners[3]));
-            const auto b     = 0.25 * ((1. - xi) * (corners[3] - corners[0]) +
-                                   (1. + xi) * (corners[2] - corners[1]));
-            const double det = a[0] * b[1] - a[1] * b[0];
-            xi -= (r[0] * b[1] - r[1] * b[0]) / det;
-            eta -= (a[0] * r[1] - a[1] * r[0]) / det;
-          }
-        if (std::abs(xi) <= 1. + 1e-12 && std::abs(eta) <= 1. + 1e-12)
-          depth = std::max(depth, r[2]);
-      }
-    return depth;
-  }
-
-
   // What a tool is pressed in with, drawn along and lifted.
   struct Press
   {
@@ -294,6 +110,38 @@ end
       Press{{"edge_at_40_degrees", edge_down(40.), 0.03, 0.06}, Vector({0.02, 0.03, -0.05})},
       Press{{"flat_box", flat_box, 0.11, 0.12}, Vector({0.05, 0.02, -0.05})}),
     [](const auto &info) { return info.param.tool.name; });
+
+
+  // The same box on its corner as a shape, as an STL file and as the boundary of a mesh file.
+  TEST(PressedBox, is_the_same_from_any_file)
+  {
+    const ScratchDirectory scratch;
+    const auto box = triangle_box(Vector({0.2, 0.2, 0.2}));
+    write_file(scratch.path + "/box.stl", ascii_stl(box));
+    std::ostringstream mesh;
+    mesh << "*NODE\n";
+    for (unsigned int i = 0; i < 8; ++i)
+      mesh << i + 1 << ", " << box.vertices[i][0] << ", " << box.vertices[i][1] << ", "
+           << box.vertices[i][2] << "\n";
+    mesh << "*ELEMENT, TYPE=C3D8, ELSET=all\n1, 1, 2, 4, 3, 5, 6, 8, 7\n";
+    write_file(scratch.path + "/box.inp", mesh.str());
+    std::vector<double> forces;
+    for (const std::string shape : {"box", "stl", "inp"})
+      {
+        List keys = {"Box/Size=0.2, 0.2, 0.2", "Normal=1, 0.9, 0.8", "Shape=box"};
+        if (shape != "box")
+          keys = {"File/Name=" + scratch.path + "/box." + shape,
+                  "Normal=1, 0.9, 0.8",
+                  "Shape=file"};
+        const ToolCase tool({shape, keys, 0.07, 0.06}, prescribed(Vector({0.03, 0., -0.05})));
+        const auto run = tool.run({"Time/End=0.025"});
+        forces.push_back(run.history["tool.force_z"].back());
+        report(shape + ": force", forces.back());
+        EXPECT_LE(largest_of(run.history["max_penetration_rel"]), 1e-7);
+      }
+    EXPECT_NEAR(forces[1] / forces[0], 1., 1e-6);
+    EXPECT_NEAR(forces[2] / forces[0], 1., 1e-6);
+  }
 
 
   // Largest changes of momentum and of angular momentum over m v and m v times the slab's length.
