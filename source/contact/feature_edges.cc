@@ -165,6 +165,18 @@ namespace akmon
   }
 
 
+  std::vector<FeatureSearch::Line>
+  FeatureSearch::lines_now() const
+  {
+    const Pose pose = body.pose();
+    std::vector<Line> lines;
+    lines.reserve(features.edges.size());
+    for (unsigned int i = 0; i < features.edges.size(); ++i)
+      lines.push_back(line_of(pose, i));
+    return lines;
+  }
+
+
   // Whether an edge of the body is past the surface and was no pair before: then it is outside of
   // another side of the deformable body, seen through it.
   bool
@@ -185,12 +197,16 @@ namespace akmon
                                 const std::vector<ContactPair> &previous,
                                 std::vector<ContactPair> &pairs)
   {
-    const Pose pose = body.pose();
+    const auto lines = lines_now();
     for (const auto &[feature, e] : edges_of_edges)
       {
         const auto &edge = surface.get_edges()[e];
         const auto &face = surface.get_faces()[edge.faces[0]];
-        const Line line  = line_of(pose, feature);
+        const Line &line = lines[feature];
+        const auto c = view.x[edge.nodes[0]], d = view.x[edge.nodes[1]];
+        if (line.distance(0.5 * (c + d)) >
+            0.5 * (d - c).norm() + std::max(view.reach, deepest_part * face.depth))
+          continue;
         Crossing crossing;
         if (!cross(view.x, line, e, crossing) || crossing.gap > view.reach ||
             crossing.gap < -deepest_part * face.depth || !is_on(view, line, e, crossing))
@@ -315,12 +331,18 @@ namespace akmon
   {
     constexpr double least_sag = 1e-9; // of the face's size: less is no bulge
 
-    const Pose pose = body.pose();
+    const auto lines = lines_now();
     for (const auto &[feature, f] : faces_of_edges)
       {
         const auto &face   = surface.get_faces()[f];
         const auto corners = surface.segment(view.x, f);
-        const Line line    = line_of(pose, feature);
+        const Line &line   = lines[feature];
+        const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+        double wide        = 0.;
+        for (const auto &corner : corners)
+          wide = std::max(wide, (corner - middle).norm());
+        if (line.distance(middle) > wide + std::max(view.reach, deepest_part * face.depth))
+          continue;
         std::array<double, 2> stretch;
         if (!line.may_touch(unit_normal(corners)) || !stretch_over(view.x, line, f, stretch) ||
             sag_over(view.x, line, f, stretch) + bulge_to_come(view, f) < least_sag * face.size)

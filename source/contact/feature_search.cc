@@ -49,15 +49,6 @@ namespace akmon
       box.extend(margin);
       return box;
     }
-
-
-    // Of a point from the line between two others.
-    double
-    distance_to_line(const Tensor<1, 3> &x, const Tensor<1, 3> &a, const Tensor<1, 3> &u)
-    {
-      const double s = std::clamp((x - a) * u / u.norm_square(), 0., 1.);
-      return (x - a - s * u).norm();
-    }
   } // namespace
 
 
@@ -71,7 +62,7 @@ namespace akmon
     , surface_faces(faces)
     , interface(interface)
     , first_feature(first_feature)
-    , features(body.parameters().shape->sharp_features())
+    , features(body.parameters().shape->sharp_features(body.parameters().edge_angle))
   {
     if (n_features() == 0)
       return;
@@ -207,7 +198,7 @@ namespace akmon
           double wide        = 0.;
           for (const auto &corner : corners)
             wide = std::max(wide, (corner - middle).norm());
-          if (distance_to_line(middle, line.a, line.u) > wide + search_radius)
+          if (line.distance(middle) > wide + search_radius)
             return;
           faces_of_edges.push_back({{i, f}});
           for (const unsigned int e : surface.get_faces()[f].edges)

@@ -1,8 +1,10 @@
 #include <akmon/rigid/rigid_shape.h>
 #include <akmon/rigid/triangle_shape.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <vector>
 
 // The sharp corners and edges of shapes.
 
@@ -11,17 +13,17 @@ namespace akmon
   using dealii::Tensor;
 
   SharpFeatures
-  RigidShape::sharp_features() const
+  RigidShape::sharp_features(const double) const
   {
     return {};
   }
 
 
   SharpFeatures
-  BlockShape::sharp_features() const
+  BlockShape::sharp_features(const double least_angle) const
   {
     SharpFeatures features;
-    if (edge > 0.)
+    if (edge > 0. || least_angle > 0.5 * dealii::numbers::PI)
       return features;
     const auto side = [](const unsigned int corner, const unsigned int d) {
       return (corner >> d) & 1 ? 1. : -1.;
@@ -46,35 +48,52 @@ namespace akmon
   }
 
 
-  // Corners are the ends of sharp edges. Their normals are weighted by the angles of the triangles,
-  // so that it does not matter how faces are cut into triangles.
+  // Corners are the ends of sharp edges, and tips where many edges meet that are less sharp: there
+  // the normals of the triangles are far from their mean. That is weighted by the angles of the
+  // triangles, so that it does not matter how faces are cut into triangles.
   SharpFeatures
-  TriangleShape::sharp_features() const
+  TriangleShape::sharp_features(const double least_angle) const
   {
+    struct Corner
+    {
+      Tensor<1, 3> sum;
+      std::vector<Tensor<1, 3>> normals;
+      bool ends_edge = false;
+    };
     SharpFeatures features;
-    std::map<unsigned int, Tensor<1, 3>> outward;
+    std::map<unsigned int, Corner> corners;
     for (const auto &line : sharp_edges)
       {
-        features.edges.push_back(
-          {{{mesh.vertices[line.ends[0]], mesh.vertices[line.ends[1]]}}, line.normals});
+        const bool is_sharp = line.normals[0] * line.normals[1] < std::cos(least_angle);
+        if (is_sharp)
+          features.edges.push_back(
+            {{{mesh.vertices[line.ends[0]], mesh.vertices[line.ends[1]]}}, line.normals});
         for (const unsigned int end : line.ends)
-          outward[end] = Tensor<1, 3>();
+          corners[end].ends_edge = corners[end].ends_edge || is_sharp;
       }
     for (const auto &t : mesh.triangles)
       {
         const auto n = mesh.normal(t);
         for (unsigned int k = 0; k < 3 && has_direction(n); ++k)
           {
-            const auto known = outward.find(t[k]);
-            if (known == outward.end())
+            const auto known = corners.find(t[k]);
+            if (known == corners.end())
               continue;
             const auto a = mesh.vertices[t[(k + 1) % 3]] - mesh.vertices[t[k]],
                        b = mesh.vertices[t[(k + 2) % 3]] - mesh.vertices[t[k]];
-            known->second += std::atan2(n.norm(), a * b) / n.norm() * n;
+            known->second.sum += std::atan2(n.norm(), a * b) / n.norm() * n;
+            known->second.normals.push_back(n / n.norm());
           }
       }
-    for (const auto &[vertex, sum] : outward)
-      features.vertices.push_back({mesh.vertices[vertex], sum / sum.norm()});
+    for (const auto &[vertex, corner] : corners)
+      {
+        const auto outward = corner.sum / corner.sum.norm();
+        if (corner.ends_edge ||
+            std::any_of(corner.normals.begin(), corner.normals.end(), [&](const auto &n) {
+              return n * outward < std::cos(0.5 * least_angle);
+            }))
+          features.vertices.push_back({mesh.vertices[vertex], outward});
+      }
     return features;
   }
 } // namespace akmon

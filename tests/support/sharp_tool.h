@@ -112,8 +112,7 @@ end
       for (const auto &corner : corners({}))
         lowest = std::min(lowest, corner[2]);
       overrides.push_back("Obstacles/tool/Point=" + shortest_text(tool.x) + ", " +
-                          shortest_text(tool.y) + ", " +
-                          shortest_text(start_gap - lowest));
+                          shortest_text(tool.y) + ", " + shortest_text(start_gap - lowest));
     }
 
     // Places of its corners, displaced.
@@ -122,7 +121,7 @@ end
     {
       const auto obstacle = Case::read(file, overrides).obstacles[0];
       std::vector<Vector> places;
-      for (const auto &vertex : obstacle.shape->sharp_features().vertices)
+      for (const auto &vertex : obstacle.shape->sharp_features(0.35).vertices)
         places.push_back(obstacle.start.place + displacement +
                          obstacle.start.orientation.matrix() * vertex.place);
       return places;
@@ -136,7 +135,7 @@ end
       const auto obstacle      = Case::read(file, overrides).obstacles[0];
       const auto R             = obstacle.start.orientation.matrix();
       std::vector<Vector> places;
-      for (const auto &edge : obstacle.shape->sharp_features().edges)
+      for (const auto &edge : obstacle.shape->sharp_features(0.35).edges)
         for (unsigned int i = 0; i <= n; ++i)
           places.push_back(obstacle.start.place + displacement +
                            R *

@@ -262,8 +262,8 @@ namespace
   TEST(SharpFeatures, OfABoxAndOfAValley)
   {
     const Vector size({0.6, 0.5, 0.2});
-    const auto exact  = BlockShape(size, 0.).sharp_features(),
-               meshed = TriangleShape(triangle_box(size)).sharp_features();
+    const auto exact  = BlockShape(size, 0.).sharp_features(0.35),
+               meshed = TriangleShape(triangle_box(size)).sharp_features(0.35);
     ASSERT_EQ(exact.vertices.size(), 8u);
     ASSERT_EQ(exact.edges.size(), 12u);
     ASSERT_EQ(meshed.vertices.size(), 8u);
@@ -281,8 +281,41 @@ namespace
                (edge.normals[0] + edge.normals[1] - other.normals[0] - other.normals[1]).norm() <
                  1e-15;
       }));
-    EXPECT_TRUE(BlockShape(size, 0.01).sharp_features().edges.empty());
-    for (const auto &edge : TriangleShape(triangle_valley()).sharp_features().edges)
+    EXPECT_TRUE(BlockShape(size, 0.01).sharp_features(0.35).edges.empty());
+    for (const auto &edge : TriangleShape(triangle_valley()).sharp_features(0.35).edges)
       EXPECT_GT(std::abs(edge.ends[0][0]) + std::abs(edge.ends[1][0]), 0.);
+  }
+
+
+  // The tip of a cone is sharp though the edges that meet there are not; what is rounder than the
+  // angle is not sharp.
+  TEST(SharpFeatures, OfATip)
+  {
+    constexpr unsigned int n = 32;
+    for (const double height : {1., 0.02})
+      {
+        TriangleMesh cone;
+        cone.vertices = {Vector({0., 0., height}), Vector({0., 0., -1.})};
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const double angle = 2. * dealii::numbers::PI * i / n;
+            cone.vertices.push_back(Vector({std::cos(angle), std::sin(angle), 0.}));
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            cone.triangles.push_back({{2 + i, 2 + (i + 1) % n, 0}});
+            cone.triangles.push_back({{2 + (i + 1) % n, 2 + i, 1}});
+          }
+        const auto features = TriangleShape(cone).sharp_features(0.35);
+        EXPECT_EQ(features.edges.size(), n); // the rim
+        const bool has_tip = std::any_of(features.vertices.begin(),
+                                         features.vertices.end(),
+                                         [&](const auto &vertex) {
+                                           return (vertex.place - cone.vertices[0]).norm() <
+                                                    1e-15 &&
+                                                  vertex.outward[2] > 0.99;
+                                         });
+        EXPECT_EQ(has_tip, height == 1.);
+      }
   }
 } // namespace

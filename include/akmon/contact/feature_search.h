@@ -5,6 +5,7 @@
 #include <akmon/contact/pair.h>
 #include <akmon/rigid/rigid_body.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -136,6 +137,14 @@ namespace akmon
 
       bool
       may_touch(const dealii::Tensor<1, 3> &normal) const;
+
+      /// Of a point from the edge; length.
+      double
+      distance(const dealii::Tensor<1, 3> &x) const
+      {
+        const double s = std::clamp((x - a) * u / u.norm_square(), 0., 1.);
+        return (x - a - s * u).norm();
+      }
     };
 
     // Where an edge of the body is closest to an edge between faces.
@@ -157,6 +166,8 @@ namespace akmon
 
     Line
     line_of(const Pose &pose, const unsigned int edge) const;
+    std::vector<Line>
+    lines_now() const;
     std::array<dealii::Tensor<1, 3>, 2>
     box_of_features(const double margin) const;
     void

@@ -76,9 +76,12 @@ namespace akmon
                  const double within,
                  std::vector<TouchPoint> &points) const;
 
-    /// Its sharp corners and edges, none by default. Rims of cylinders are not among them.
+    /**
+     * Its sharp corners and edges, none by default. Rims of cylinders are not among them.
+     * @param least_angle  by which the surface turns at an edge; radians
+     */
     virtual SharpFeatures
-    sharp_features() const;
+    sharp_features(const double least_angle) const;
 
     /// Distance of the surface's furthest point from the frame's origin; length.
     virtual double
@@ -200,7 +203,7 @@ namespace akmon
                  std::vector<TouchPoint> &points) const override;
 
     SharpFeatures
-    sharp_features() const override;
+    sharp_features(const double least_angle) const override;
 
     MassProperties
     mass_properties(const double density) const override;

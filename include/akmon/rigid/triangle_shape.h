@@ -41,7 +41,7 @@ namespace akmon
                  std::vector<TouchPoint> &points) const override;
 
     SharpFeatures
-    sharp_features() const override;
+    sharp_features(const double least_angle) const override;
 
     double
     radius() const override
