@@ -59,6 +59,19 @@ namespace akmon
   }
 
 
+  // Part of its initial strength, r of its law.
+  double
+  Bonds::strength_left(const Point &point) const
+  {
+    if (point.broken)
+      return 0.;
+    if (!point.softening)
+      return 1.;
+    const double taken = std::max(0., point.energy.carried) / point.area;
+    return contacts[point.interface].bond.remaining(taken);
+  }
+
+
   // A point that cannot bear a force gives what it can, or breaks.
   void
   Bonds::fail(Point &point, const Tensor<1, 3> &trial, const double r)
@@ -97,9 +110,7 @@ namespace akmon
         for (const std::size_t end = r + (point.holds == Holds::all ? 3 : 1); r < end; ++r)
           trial += t[r] * system.rows[r].direction;
         const auto &law   = contacts[point.interface].bond;
-        const double left = point.softening ?
-                              law.remaining(std::max(0., point.energy.carried) / point.area) :
-                              1.;
+        const double left = strength_left(point);
         const bool fails  = point.holds == Holds::all ?
                               law.breaks() && law.utilization(-trial / point.area, point.normal) >
                                                left * (1. + rounding) :
@@ -294,6 +305,26 @@ namespace akmon
           report.energy += point.energy.at_level;
         }
     return report;
+  }
+
+
+  // A point counts at a node with the part of its area that the node's shape function covers.
+  std::map<types::global_dof_index, double>
+  Bonds::strength_at_nodes() const
+  {
+    std::vector<double> area(nodes.size(), 0.), bonded(nodes.size(), 0.);
+    for (const auto &point : points)
+      for (const auto &[node, weight] : point.row)
+        {
+          const double part = std::abs(weight) * point.area;
+          area[node] += part;
+          bonded[node] += part * strength_left(point);
+        }
+    std::map<types::global_dof_index, double> strength;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      if (area[i] > 0.)
+        strength.emplace_hint(strength.end(), nodes[i], bonded[i] / area[i]);
+    return strength;
   }
 
 

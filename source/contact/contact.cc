@@ -1,6 +1,7 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
 #include <akmon/contact/edge_search.h>
+#include <akmon/contact/feature_search.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -34,6 +35,30 @@ namespace akmon
   }
 
 
+  double
+  Contact::least_radius_of_searches() const
+  {
+    double least = std::numeric_limits<double>::max();
+    for (const auto &search : searches)
+      least = std::min(least, search.radius());
+    for (const auto &search : feature_searches)
+      if (search.exists())
+        least = std::min(least, search.radius());
+    return least;
+  }
+
+
+  // Sharp features look as far as nodes do for obstacles, and further where all are at rest.
+  double
+  Contact::reach_of_features(const NodalState &state, const double of_obstacles) const
+  {
+    double reach = of_obstacles;
+    for (const auto &search : feature_searches)
+      reach = std::max(reach, state.step == 0 ? search.radius() : search.least_reach());
+    return reach;
+  }
+
+
   // The forces of the coming step, which may move surfaces, are not known yet: several times what
   // any node does now is looked at, surfaces at rest that are pushed from inside included.
   void
@@ -45,9 +70,7 @@ namespace akmon
     motions.measure(state);
     const double of_rigid_bodies = fastest_rigid_motion(state);
     const double fastest         = std::max(motions.largest(), of_rigid_bodies);
-    double least_radius          = std::numeric_limits<double>::max();
-    for (const auto &search : searches)
-      least_radius = std::min(least_radius, search.radius());
+    const double least_radius    = least_radius_of_searches();
     // Two surfaces can approach each other at twice the speed of the faster one.
     moved += 2. * fastest;
     travelled += 2. * fastest;
@@ -58,8 +81,9 @@ namespace akmon
         least_reach = std::max(least_reach, least_part * least_radius);
         reach       = std::max(reach, least_reach);
       }
-    if (!prepared || moved + reach > least_radius)
-      rebuild_candidates(state, reach);
+    const double reach_of_all = std::max(reach, reach_of_features(state, reach_of_obstacles));
+    if (!prepared || moved + reach_of_all > least_radius)
+      rebuild_candidates(state, reach_of_all);
     if (state.step == 0) // bodies may be about to start
       for (const auto &search : searches)
         reach = least_reach = std::max(reach, search.radius());
@@ -81,15 +105,7 @@ namespace akmon
         if (last && !edge_searches.empty())
           edge_searches[interface].find_pairs(x, x_reached, reach, previous, pairs);
       }
-    for (unsigned int i = 0; i < bodies.size(); ++i)
-      {
-        const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
-        obstacle_searches[i].find_pairs(nodes, x, first, reach_of_obstacles, travelled, pairs);
-        for (const bool reversed : {false, true})
-          for (const auto &touch : rigid_touches)
-            if (touch.get_interface() == contacts.size() + i)
-              touch.find_pairs(nodes, rigid_nodes, reversed, reach_of_obstacles, pairs);
-      }
+    find_obstacle_pairs(state, reach_of_obstacles, previous);
     if (bonds->exist())
       pairs.erase(std::remove_if(pairs.begin(),
                                  pairs.end(),
@@ -99,6 +115,30 @@ namespace akmon
                            .count();
     if (solver.type != ContactSolver::Type::decoupled)
       warm_start(previous);
+  }
+
+
+  // Pairs in the order of their keys.
+  void
+  Contact::find_obstacle_pairs(const NodalState &state,
+                               const double reach,
+                               const std::vector<ContactPair> &previous)
+  {
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      {
+        const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
+        obstacle_searches[i].find_pairs(nodes, x, first, reach, travelled, pairs);
+        for (const bool reversed : {false, true})
+          {
+            for (const auto &touch : rigid_touches)
+              if (touch.get_interface() == contacts.size() + i)
+                touch.find_pairs(nodes, rigid_nodes, reversed, reach, pairs);
+            if (!reversed && !feature_searches.empty())
+              feature_searches[i].find_pairs({x, dx, first, reach_of_features(state, reach)},
+                                             previous,
+                                             pairs);
+          }
+      }
   }
 
 
@@ -136,6 +176,12 @@ namespace akmon
         const auto of_edges = edge_searches[i].fetch_edges(nodes, state.x, radius_of_edges(i));
         needed.insert(needed.end(), of_edges.begin(), of_edges.end());
       }
+    for (auto &search : feature_searches)
+      {
+        search.look_as_far_as(foresight * reach);
+        const auto of_features = search.fetch_faces(nodes, state.x);
+        needed.insert(needed.end(), of_features.begin(), of_features.end());
+      }
     nodes.reinit(needed);
     mobility.reinit(discretization, conditions, nodes);
     bonds->update_mobilities();
@@ -151,6 +197,8 @@ namespace akmon
     motions.set_neighbours(neighbours);
     for (unsigned int i = 0; i < edge_searches.size(); ++i)
       edge_searches[i].build_candidates(nodes, x, radius_of_edges(i));
+    for (auto &search : feature_searches)
+      search.build_candidates(nodes, x);
     moved    = 0.;
     prepared = true;
   }

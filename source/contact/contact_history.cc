@@ -2,6 +2,8 @@
 #include <akmon/contact/contact.h>
 #include <akmon/contact/coupled_solver.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 
 // What contact carries from step to step, in checkpoints.
@@ -13,12 +15,12 @@ namespace akmon
   namespace
   {
     // A pair's row in a checkpoint. Slaves go by their global node numbers, which are the same on
-    // any number of ranks.
+    // any number of ranks; features of rigid bodies are numbered behind all nodes.
     constexpr std::size_t row_width = 14, of_nodes_only = 10; // before there were pairs of edges
 
 
     void
-    to_row(const ContactPair &pair, const types::global_dof_index slave, double *const row)
+    to_row(const ContactPair &pair, const double slave, double *const row)
     {
       row[0] = pair.interface;
       row[1] = pair.reversed ? 1. : 0.;
@@ -60,18 +62,21 @@ namespace akmon
   void
   Contact::save(CheckpointWriter &checkpoint) const
   {
-    // The others start from nothing, and so do pairs of two rigid bodies. Edges remain a pair where
-    // they would not become one.
+    // The others start from nothing. Edges remain a pair where they would not become one.
     std::vector<const ContactPair *> carrying;
     for (const auto &pair : pairs)
-      if (pair.slave != numbers::invalid_unsigned_int &&
-          (pair.normal_force != 0. || pair.curvature != 0. || pair.of_edges))
+      if (pair.normal_force != 0. || pair.curvature != 0. || pair.of_edges || pair.of_features)
         carrying.push_back(&pair);
     checkpoint.table("contact_pairs",
                      carrying.size(),
                      row_width,
                      [&](const std::size_t i, double *const row) {
-                       to_row(*carrying[i], discretization.global_node(carrying[i]->slave), row);
+                       const auto &pair = *carrying[i];
+                       to_row(pair,
+                              pair.slave == numbers::invalid_unsigned_int ?
+                                double(discretization.n_global_nodes) + pair.slave_id :
+                                discretization.global_node(pair.slave),
+                              row);
                      });
     bonds->save(checkpoint);
   }
@@ -82,11 +87,22 @@ namespace akmon
   {
     const auto &owned          = discretization.partitioner->locally_owned_range();
     const auto [n_rows, width] = checkpoint.size("contact_pairs");
+    const bool first_rank = Utilities::MPI::this_mpi_process(discretization.communicator()) == 0;
     pairs.clear();
     checkpoint.rows("contact_pairs",
                     0,
                     n_rows,
                     [&, width = width](const std::size_t, const double *const row) {
+                      if (row[2] >= discretization.n_global_nodes)
+                        {
+                          if (!first_rank)
+                            return;
+                          pairs.push_back(from_row(row, width));
+                          pairs.back().slave    = numbers::invalid_unsigned_int;
+                          pairs.back().slave_id = ContactNodes::Id(row[2] -
+                                                                   discretization.n_global_nodes);
+                          return;
+                        }
                       const types::global_dof_index first_dof = 3 * row[2];
                       if (!owned.is_element(first_dof))
                         return;

@@ -1,6 +1,7 @@
 #include <akmon/contact/contact.h>
 #include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/edge_search.h>
+#include <akmon/contact/feature_search.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -58,6 +59,11 @@ namespace akmon
       return edge_searches[pair.search].gap_at(x_reached, pair, gap);
     if (pair.interface < contacts.size())
       return pair.n_nodes > 1 && searches[pair.search].gap_at(x_reached, pair, gap);
+    if (pair.of_features)
+      {
+        const unsigned int body = pair.interface - contacts.size();
+        return feature_searches[body].gap_at(x_reached, poses[body], pair, gap);
+      }
     if (pair.slave == numbers::invalid_unsigned_int)
       return std::any_of(rigid_touches.begin(), rigid_touches.end(), [&](const auto &touch) {
         return touch.gap_at(pair, poses, gap);
@@ -99,7 +105,8 @@ namespace akmon
   Contact::follow_partners(const NodalState &state, const bool all_pairs)
   {
     // Of the cell size. Rigid shapes are exact: so are gaps from them; normals of edges turn fast.
-    constexpr double of_faces = 1e-7, of_edges = 1e-10, of_rigid = 1e-12;
+    constexpr double of_faces = 1e-7, of_features = 1e-8, of_edges = 1e-10, of_rigid = 1e-12;
+    constexpr double least_of_features = 0.1;
 
     if (searches.empty() && bodies.empty())
       return 0.;
@@ -124,8 +131,10 @@ namespace akmon
       {
         if (!all_pairs && !moves_anew(*pair))
           continue;
-        const auto motion    = pair->relative(dx_reached);
-        const double bound   = 0.5 * motion.norm(); // whatever is beyond is another partner
+        const auto motion = pair->relative(dx_reached);
+        // Whatever is beyond is another partner. Bulges may be highest far from where they were.
+        const double bound   = std::max(0.5 * motion.norm(),
+                                      pair->of_features ? least_of_features * pair->size : 0.);
         const double linear  = pair->gap + pair->normal * motion;
         const double allowed = std::min(0., pair->gap + release(*pair, state));
         double reached;
@@ -133,10 +142,11 @@ namespace akmon
         if (stays_open || !reached_gap(*pair, poses, reached))
           continue;
         const double curvature = std::clamp(reached - linear, -bound, bound);
-        const double excess    = std::abs(curvature - pair->curvature) /
-                              (pair->size * (pair->interface >= contacts.size() ? of_rigid :
-                                             pair->of_edges                     ? of_edges :
-                                                                                  of_faces));
+        const double tolerance = pair->of_features                  ? of_features :
+                                 pair->of_edges                     ? of_edges :
+                                 pair->interface >= contacts.size() ? of_rigid :
+                                                                      of_faces;
+        const double excess    = std::abs(curvature - pair->curvature) / (pair->size * tolerance);
         if (pair->normal_force > 0. || linear + curvature < allowed)
           largest = std::max(largest, excess);
         pair->settled = excess <= 1.;

@@ -2,6 +2,7 @@
 #include <akmon/contact/contact.h>
 #include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/edge_search.h>
+#include <akmon/contact/feature_search.h>
 #include <akmon/parameters.h>
 
 #include <algorithm>
@@ -63,6 +64,30 @@ namespace akmon
       std::vector<ObstacleSearch> searches;
       for (unsigned int i = 0; i < bodies.size(); ++i)
         searches.emplace_back(discretization, bodies[i], first_interface + i);
+      return searches;
+    }
+
+
+    // One for every body; none with the decoupled solver.
+    std::vector<FeatureSearch>
+    make_feature_searches(const Discretization &discretization,
+                          const ContactSolver &solver,
+                          const std::vector<RigidBody> &bodies,
+                          const std::vector<ObstacleSearch> &obstacle_searches,
+                          const unsigned int first_interface)
+    {
+      std::vector<FeatureSearch> searches;
+      unsigned int n_features = 0;
+      if (solver.type != ContactSolver::Type::decoupled)
+        for (unsigned int i = 0; i < bodies.size(); ++i)
+          {
+            searches.emplace_back(discretization,
+                                  bodies[i],
+                                  obstacle_searches[i].surface_faces(),
+                                  first_interface + i,
+                                  n_features);
+            n_features += searches.back().n_features();
+          }
       return searches;
     }
 
@@ -133,6 +158,8 @@ namespace akmon
     , searches(make_searches(discretization, solver, contacts))
     , edge_searches(make_edge_searches(discretization, solver, contacts, searches))
     , obstacle_searches(make_obstacle_searches(discretization, bodies, contacts.size()))
+    , feature_searches(
+        make_feature_searches(discretization, solver, bodies, obstacle_searches, contacts.size()))
     , rigid_touches(make_rigid_touches(bodies, contacts.size()))
     , rigid_nodes(bodies)
     , surface_nodes(owned_nodes(discretization, searches, obstacle_searches))

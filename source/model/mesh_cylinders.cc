@@ -18,23 +18,6 @@ namespace akmon
     const dealii::Patterns::Integer one_or_more(1);
 
 
-    /// Coordinates of n + 1 slices from 0 to exactly `length`; cell lengths grow geometrically by
-    /// `grading`.
-    std::vector<double>
-    slices(const double length, const unsigned int n, const double grading)
-    {
-      std::vector<double> coordinates = {0.};
-      const double growth             = n > 1 ? std::pow(grading, 1. / (n - 1)) : 1.;
-      for (unsigned int i = 0; i < n; ++i)
-        coordinates.push_back(coordinates.back() + std::pow(growth, i));
-      const double sum = coordinates.back();
-      for (double &z : coordinates)
-        z *= length / sum;
-      coordinates.back() = length;
-      return coordinates;
-    }
-
-
     // Whether a face of a plane mesh lies where a coordinate is zero.
     bool
     on_axis(const dealii::Triangulation<2>::face_iterator &face, const unsigned int direction)

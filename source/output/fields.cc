@@ -1,3 +1,4 @@
+#include <akmon/contact/bonds.h>
 #include <akmon/output/fields.h>
 
 #include <cmath>
@@ -38,7 +39,7 @@ namespace akmon
       for (const char *const name :
            {"displacement", "velocity", "contact_traction", "contact_friction"})
         add(name, 3);
-      for (const char *const name : {"contact_pressure", "gap", "contact_status"})
+      for (const char *const name : {"contact_pressure", "gap", "contact_status", "bond"})
         add(name, 1);
       add("cauchy_stress", 9);
       for (const char *const name : {"von_mises", "plastic_strain", "body", "rank", "eroded"})
@@ -98,6 +99,7 @@ namespace akmon
     constexpr std::size_t cells_of_piece = 16384;
 
     NodalFields fields(discretization);
+    fields.bond = contact.get_bonds().strength_at_nodes();
     fill_velocity(fields);
     fill_contact_fields(state, fields);
     for (FieldVector *const vector :
@@ -168,7 +170,7 @@ namespace akmon
     DataOutBase::Patch<3, 3> patch;
     patch.reference_cell = ReferenceCells::Hexahedron;
     patch.n_subdivisions = 1;
-    patch.data.reinit(3 + 3 * of_nodes.size() + of_cell.size(), 8);
+    patch.data.reinit(3 + 3 * of_nodes.size() + 1 + of_cell.size(), 8);
     for (unsigned int v = 0; v < 8; ++v)
       {
         const unsigned int node = cell.nodes[v];
@@ -180,6 +182,8 @@ namespace akmon
         for (const auto *const vector : of_nodes)
           for (unsigned int d = 0; d < 3; ++d)
             patch.data(row++, v) = vector->local_element(3 * node + d);
+        const auto bond      = fields.bond.find(discretization.global_node(node));
+        patch.data(row++, v) = bond != fields.bond.end() ? bond->second : 0.;
         for (const double value : of_cell)
           patch.data(row++, v) = value;
       }

@@ -187,6 +187,13 @@ namespace akmon
                       "0",
                       Patterns::Double(),
                       "Angle by which the shape is turned about its z axis first (degrees)");
+    prm.declare_entry(
+      "Edge angle",
+      "20",
+      Patterns::Double(0., 180.),
+      "Convex edges of a box or a file's surface that turn by more than this are sharp: they and their "
+      "corners are kept out of faces of the bodies, however large these are (degrees; 180: none; not "
+      "with the decoupled solver)");
     ShapeFromParameters::declare(prm);
     ContactLaw::declare(prm);
     prm.declare_entry("Motion",
@@ -214,6 +221,7 @@ namespace akmon
     if (normal.norm() == 0.)
       throw InputError(section, "Normal", prm.get("Normal"), "it must not be zero");
     const double twist = prm.get_double("Twist") * numbers::PI / 180.;
+    edge_angle         = prm.get_double("Edge angle") * numbers::PI / 180.;
     start.orientation  = Orientation::z_axis_to(normal / normal.norm()) *
                         Orientation::about(Tensor<1, 3>({0., 0., twist}));
     const auto made = ShapeFromParameters::parse(prm, section);

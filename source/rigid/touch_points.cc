@@ -215,7 +215,7 @@ namespace akmon
       collector.add(v, mesh.vertices[v]);
     for (unsigned int i = 0; i < sharp_edges.size(); ++i)
       collector.add_line(mesh.vertices.size() + i,
-                         mesh.vertices[sharp_edges[i][0]],
-                         mesh.vertices[sharp_edges[i][1]]);
+                         mesh.vertices[sharp_edges[i].ends[0]],
+                         mesh.vertices[sharp_edges[i].ends[1]]);
   }
 } // namespace akmon

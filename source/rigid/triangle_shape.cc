@@ -85,7 +85,7 @@ namespace akmon
     std::vector<Tree::Entry> entries;
     for (unsigned int i = 0; i < mesh.triangles.size(); ++i)
       {
-        if (mesh.normal(mesh.triangles[i]).norm() <= 1e-14 * size * size)
+        if (!has_direction(mesh.normal(mesh.triangles[i])))
           continue; // no direction; its neighbours cover it
         TreeBox box;
         bg::assign_inverse(box);
@@ -115,7 +115,7 @@ namespace akmon
     for (const auto &t : mesh.triangles)
       {
         const auto n = mesh.normal(t);
-        if (n.norm() <= 1e-14 * size * size)
+        if (!has_direction(n))
           continue;
         for (unsigned int k = 0; k < 3; ++k)
           {
@@ -128,7 +128,7 @@ namespace akmon
             const Side &other = known.first->second;
             const auto across = mesh.vertices[side.opposite] - mesh.vertices[edge[0]];
             if (other.normal * side.normal < flat && other.normal * across < 0.)
-              sharp_edges.push_back(edge);
+              sharp_edges.push_back({edge, {{other.normal, side.normal}}});
           }
       }
   }

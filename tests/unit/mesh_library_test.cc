@@ -77,6 +77,27 @@ namespace
   }
 
 
+  // Cells of 1, 2, 4 along x and 4, 2, 1 along z, and the volume of the box.
+  TEST(MeshLibrary, BoxGradingIsTheRatioOfLastToFirstCell)
+  {
+    const auto mesh = make(
+      "subsection Box\nset Size = 7, 2, 7\nset Cells = 3, 2, 3\nset Grading = 4, 1, 0.25\nend\n");
+    expect_complete(mesh);
+    EXPECT_NEAR(quality(mesh).volume, 98, 1e-12);
+    for (const auto &x : mesh.vertices)
+      {
+        const auto near = [](const double value, const std::vector<double> &allowed) {
+          return std::any_of(allowed.begin(), allowed.end(), [&](const double one) {
+            return std::abs(value - one) < 1e-12;
+          });
+        };
+        EXPECT_TRUE(near(x[0], {-3.5, -2.5, -0.5, 3.5})) << x;
+        EXPECT_TRUE(near(x[1], {-1., 0., 1.})) << x;
+        EXPECT_TRUE(near(x[2], {-3.5, 0.5, 2.5, 3.5})) << x;
+      }
+  }
+
+
   TEST(MeshLibrary, CylinderQualityAndParts)
   {
     for (const unsigned int across : {1, 2, 3, 4, 6, 8})
@@ -293,6 +314,8 @@ namespace
 
   TEST(MeshLibrary, NonPositiveNumbersAreRefused)
   {
+    expect_contains(error_of("subsection Box\nset Grading = 1, 0, 1\nend\n"),
+                    "[Bodies/b/Box] Grading = 1, 0, 1: ");
     expect_contains(error_of("subsection Box\nset Size = 1, 0, 1\nend\n"),
                     "[Bodies/b/Box] Size = 1, 0, 1: ");
     expect_contains(error_of(cylinder("set Radius = 0\n")), "[Bodies/b/Cylinder] Radius = 0: ");

@@ -255,4 +255,67 @@ namespace
     EXPECT_NEAR((actual.centre - dealii::Point<3>(5., -7., 11.)).norm(), 0., 1e-13);
     EXPECT_NEAR((actual.inertia - expected.inertia).norm(), 0., 1e-12 * expected.mass);
   }
+
+
+  // A box has the same sharp corners and edges, however its sides are cut into triangles; a concave
+  // edge is none.
+  TEST(SharpFeatures, OfABoxAndOfAValley)
+  {
+    const Vector size({0.6, 0.5, 0.2});
+    const auto exact  = BlockShape(size, 0.).sharp_features(0.35),
+               meshed = TriangleShape(triangle_box(size)).sharp_features(0.35);
+    ASSERT_EQ(exact.vertices.size(), 8u);
+    ASSERT_EQ(exact.edges.size(), 12u);
+    ASSERT_EQ(meshed.vertices.size(), 8u);
+    ASSERT_EQ(meshed.edges.size(), 12u);
+    for (const auto &vertex : exact.vertices)
+      EXPECT_TRUE(
+        std::any_of(meshed.vertices.begin(), meshed.vertices.end(), [&](const auto &other) {
+          return (vertex.place - other.place).norm() < 1e-15 &&
+                 (vertex.outward - other.outward).norm() < 1e-15;
+        }));
+    for (const auto &edge : exact.edges)
+      EXPECT_TRUE(std::any_of(meshed.edges.begin(), meshed.edges.end(), [&](const auto &other) {
+        const auto middle = [](const SharpFeatures::Edge &of) { return of.ends[0] + of.ends[1]; };
+        return (middle(edge) - middle(other)).norm() < 1e-15 &&
+               (edge.normals[0] + edge.normals[1] - other.normals[0] - other.normals[1]).norm() <
+                 1e-15;
+      }));
+    EXPECT_TRUE(BlockShape(size, 0.01).sharp_features(0.35).edges.empty());
+    for (const auto &edge : TriangleShape(triangle_valley()).sharp_features(0.35).edges)
+      EXPECT_GT(std::abs(edge.ends[0][0]) + std::abs(edge.ends[1][0]), 0.);
+  }
+
+
+  // The tip of a cone is sharp though the edges that meet there are not; what is rounder than the
+  // angle is not sharp.
+  TEST(SharpFeatures, OfATip)
+  {
+    constexpr unsigned int n = 32;
+    for (const double height : {1., 0.02})
+      {
+        TriangleMesh cone;
+        cone.vertices = {Vector({0., 0., height}), Vector({0., 0., -1.})};
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            const double angle = 2. * dealii::numbers::PI * i / n;
+            cone.vertices.push_back(Vector({std::cos(angle), std::sin(angle), 0.}));
+          }
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            cone.triangles.push_back({{2 + i, 2 + (i + 1) % n, 0}});
+            cone.triangles.push_back({{2 + (i + 1) % n, 2 + i, 1}});
+          }
+        const auto features = TriangleShape(cone).sharp_features(0.35);
+        EXPECT_EQ(features.edges.size(), n); // the rim
+        const bool has_tip = std::any_of(features.vertices.begin(),
+                                         features.vertices.end(),
+                                         [&](const auto &vertex) {
+                                           return (vertex.place - cone.vertices[0]).norm() <
+                                                    1e-15 &&
+                                                  vertex.outward[2] > 0.99;
+                                         });
+        EXPECT_EQ(has_tip, height == 1.);
+      }
+  }
 } // namespace

@@ -125,6 +125,11 @@ namespace akmon
     Report
     report(const unsigned int interface) const;
 
+    /// The part of the strength of a node's bonds that is left, by area: 1 intact, 0 broken. Of all
+    /// nodes with bonds, the same on all ranks, by global number.
+    std::map<dealii::types::global_dof_index, double>
+    strength_at_nodes() const;
+
     void
     save(CheckpointWriter &checkpoint) const;
 
@@ -206,6 +211,8 @@ namespace akmon
     follow_slip(const Values &x);
     bool
     let_fail(const System &system, const Eigen::VectorXd &t);
+    double
+    strength_left(const Point &point) const;
     void
     fail(Point &point, const dealii::Tensor<1, 3> &trial, const double r);
     Eigen::VectorXd

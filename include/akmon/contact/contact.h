@@ -22,6 +22,7 @@ namespace akmon
   class Bonds;
   class CoupledSolver;
   class EdgeSearch;
+  class FeatureSearch;
 
   /// What contact did at an interface, over this rank's pairs. Forces act on the surfaces named as
   /// slaves; those of an obstacle on what it touches.
@@ -218,8 +219,16 @@ namespace akmon
     refuse_initial_overlap(const NodalState &state) const;
 
   private:
+    double
+    least_radius_of_searches() const;
+    double
+    reach_of_features(const NodalState &state, const double of_obstacles) const;
     void
     rebuild_candidates(const NodalState &state, const double reach);
+    void
+    find_obstacle_pairs(const NodalState &state,
+                        const double reach,
+                        const std::vector<ContactPair> &previous);
     double
     radius_of_edges(const unsigned int interface) const;
     double
@@ -277,6 +286,7 @@ namespace akmon
     std::vector<SurfaceSearch> searches;
     std::vector<EdgeSearch> edge_searches;         ///< one per contact, or none
     std::vector<ObstacleSearch> obstacle_searches; ///< one per body
+    std::vector<FeatureSearch> feature_searches;   ///< one per body, or none
     std::vector<RigidTouch> rigid_touches;         ///< of bodies that may meet
     const RigidNodes rigid_nodes;
     std::vector<unsigned int> surface_nodes;

@@ -29,16 +29,20 @@ namespace akmon
    * forces G^T t have neither a resultant nor a moment, so that angular momentum is conserved
    * exactly.
    *
+   * Or a point of a sharp corner or edge of a rigid body and one of a surface (FeatureSearch), the
+   * body being the slave.
+   *
    * A rigid body that moves has two contact nodes, one with its centre's motion u_c and one with
    * its rotation theta: it moves by u_c + theta x r at the slave's place r from the centre. The
    * force on the second is the moment r x t. Rotations stand last in the list of nodes.
    */
   struct ContactPair
   {
-    unsigned int interface; ///< number of the contact or obstacle
-    bool of_edges = false;  ///< two edges that cross, not a node and a segment
-    bool reversed = false;  ///< slave and master of the interface change roles
-    unsigned int slave;     ///< local number of the (owned) slave node
+    unsigned int interface;   ///< number of the contact or obstacle
+    bool of_edges    = false; ///< two edges that cross, not a node and a segment
+    bool of_features = false; ///< a rigid body's corner or edge with a face or edge of a surface
+    bool reversed    = false; ///< slave and master of the interface change roles
+    unsigned int slave;       ///< local number of the (owned) slave node
     ContactNodes::Id slave_id;
     std::array<ContactNodes::Id, 3> others{}; ///< of two edges: ids of the nodes b, c, d
     unsigned int slot   = 0;     ///< 0: with the closest face; else with another face of a corner

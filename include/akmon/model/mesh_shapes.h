@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string>
+#include <vector>
 
 namespace akmon
 {
@@ -42,6 +43,12 @@ namespace akmon
   }
 
 
+  /// Coordinates of n + 1 slices from 0 to exactly `length`; cell lengths grow geometrically, the
+  /// last one over the first is `grading`.
+  std::vector<double>
+  slices(const double length, const unsigned int n, const double grading);
+
+
   // Every shape is a value with the same three functions: declare() its keys in the subsection the
   // handler stands in, parse() them (throws InputError, naming `section`), and make() its mesh,
   // complete but for the part "all".
@@ -51,6 +58,7 @@ namespace akmon
   {
     dealii::Tensor<1, 3> size;         ///< edge lengths; length
     std::array<unsigned int, 3> cells; ///< number of cells along x, y, z
+    dealii::Tensor<1, 3> grading;      ///< length of the last cell over that of the first
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -7,6 +7,7 @@
 #include <akmon/output/vtu_file.h>
 #include <akmon/time/fidcd.h>
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,7 @@ namespace akmon
                             ///< partner), status (0 open, 1 slip, 2 stick)
       FieldVector traction; ///< contact's normal and friction force per area
       FieldVector friction; ///< friction force per area
+      std::map<dealii::types::global_dof_index, double> bond; ///< strength left, by global number
     };
 
     void

@@ -48,7 +48,8 @@ namespace akmon
     std::shared_ptr<const RigidShape> shape;
     std::vector<std::string> repairs; ///< what had to be repaired in its surface, a line each
     Pose start;
-    Motion motion = Motion::fixed;
+    double edge_angle = 0.; ///< edges that turn by more are sharp; radians
+    Motion motion     = Motion::fixed;
     PrescribedPath path;                ///< if prescribed
     FreeStart free;                     ///< if free
     std::vector<std::string> obstacles; ///< names of those it may hit itself

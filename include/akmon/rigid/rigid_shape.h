@@ -1,6 +1,7 @@
 #pragma once
 
 #include <akmon/rigid/mass_properties.h>
+#include <akmon/rigid/sharp_features.h>
 
 #include <deal.II/base/point.h>
 #include <deal.II/base/tensor.h>
@@ -74,6 +75,13 @@ namespace akmon
     touch_points(const DistanceField &other,
                  const double within,
                  std::vector<TouchPoint> &points) const;
+
+    /**
+     * Its sharp corners and edges, none by default. Rims of cylinders are not among them.
+     * @param least_angle  by which the surface turns at an edge; radians
+     */
+    virtual SharpFeatures
+    sharp_features(const double least_angle) const;
 
     /// Distance of the surface's furthest point from the frame's origin; length.
     virtual double
@@ -193,6 +201,9 @@ namespace akmon
     touch_points(const DistanceField &other,
                  const double within,
                  std::vector<TouchPoint> &points) const override;
+
+    SharpFeatures
+    sharp_features(const double least_angle) const override;
 
     MassProperties
     mass_properties(const double density) const override;

@@ -40,6 +40,9 @@ namespace akmon
                  const double within,
                  std::vector<TouchPoint> &points) const override;
 
+    SharpFeatures
+    sharp_features(const double least_angle) const override;
+
     double
     radius() const override
     {
@@ -72,8 +75,21 @@ namespace akmon
     void
     find_sharp_edges();
 
+    // Whether a triangle's normal is more than rounding.
+    bool
+    has_direction(const dealii::Tensor<1, 3> &normal) const
+    {
+      return normal.norm() > 1e-14 * size * size;
+    }
+
+    struct SharpEdge
+    {
+      std::array<unsigned int, 2> ends;            ///< numbers of vertices
+      std::array<dealii::Tensor<1, 3>, 2> normals; ///< of the triangles on both sides
+    };
+
     const TriangleMesh mesh;
-    std::vector<std::array<unsigned int, 2>> sharp_edges; ///< numbers of their vertices
+    std::vector<SharpEdge> sharp_edges;
     double furthest = 0., size = 0.;
     std::unique_ptr<Tree> tree;
   };

@@ -3,10 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "support/kept_run.h"
 #include "support/report.h"
+#include "support/run_directory.h"
+#include "support/vtu.h"
 
 // Tied contact on meshes that do not match.
 
@@ -156,6 +160,74 @@ namespace
     for (const char *const column : {"time", "bond_energy", "glue.force_x", "glue.force_z"})
       for (std::size_t i = 0; i < one.n_rows(); ++i)
         EXPECT_NEAR(one[column][i], three[column][i], 1e-9 * largest_of(one[column])) << column;
+  }
+
+
+  // The field `bond` of the files of a run, by initial place and body.
+  using BondField = std::map<std::array<float, 4>, float>;
+
+  std::vector<BondField>
+  bond_fields(const unsigned int n_ranks)
+  {
+    const ScratchDirectory scratch;
+    const auto result = run_program(arguments_for(shipped("lap_joint"),
+                                                  scratch.path,
+                                                  {"Output/Fields interval=1.25e-5",
+                                                   "Output/Configuration=reference"}),
+                                    n_ranks);
+    EXPECT_EQ(result.status, 0) << result.output;
+    std::vector<BondField> fields;
+    for (const auto &file : field_files_in(scratch.path))
+      {
+        const std::string path = scratch.path + "/" + file;
+        const auto places = field_of_vtu(path, "Points"), bond = field_of_vtu(path, "bond"),
+                   body = field_of_vtu(path, "body");
+        EXPECT_EQ(places.size(), 3 * bond.size());
+        fields.emplace_back();
+        for (std::size_t i = 0; i < bond.size(); ++i)
+          fields.back()[{{places[3 * i], places[3 * i + 1], places[3 * i + 2], body[i]}}] = bond[i];
+      }
+    return fields;
+  }
+
+
+  // What is shown of the bonds: all of their strength on both glued surfaces at first, ends that
+  // have parted before the middle, nothing at the end; the same whatever ranks wrote it.
+  TEST(LapJoint, shows_what_is_left_of_its_bonds)
+  {
+    const auto fields   = bond_fields(1);
+    const auto is_glued = [](const std::array<float, 4> &at) {
+      return std::abs(at[2]) < 1e-7f && std::abs(at[0]) < 5.001e-3f;
+    };
+    const auto is_beside = [](const std::array<float, 4> &at) { // a face away
+      return std::abs(at[2]) < 1e-7f && std::abs(at[0]) < 6.2e-3f;
+    };
+    ASSERT_EQ(fields.size(), 9u);
+    std::array<unsigned int, 2> n_glued{};
+    for (const auto &[at, bond] : fields.front())
+      {
+        const bool may_be_either = is_beside(at) && !is_glued(at);
+        EXPECT_TRUE(may_be_either || bond == (is_glued(at) ? 1.f : 0.f))
+          << at[0] << " " << at[1] << " " << at[2];
+        n_glued[unsigned(at[3])] += is_glued(at);
+      }
+    EXPECT_EQ(n_glued[0], 9u * 7);
+    EXPECT_EQ(n_glued[1], 11u * 9);
+    for (const auto &[at, bond] : fields.back())
+      EXPECT_EQ(bond, 0.f);
+    float least = 1.f, most = 0.f;
+    for (const auto &[at, bond] : fields[4])
+      if (is_glued(at))
+        {
+          least = std::min(least, bond);
+          most  = std::max(most, bond);
+        }
+    report("strength left at 50 microseconds, least", least);
+    report("most", most);
+    EXPECT_GT(least, 0.f);
+    EXPECT_LT(least, 0.5f);
+    EXPECT_GT(most, least + 0.1f);
+    EXPECT_TRUE(bond_fields(3) == fields);
   }
 
 

@@ -98,6 +98,8 @@ namespace
       RestartedCase{"sliding_block",
                     {"Time/End=0.02", "Checkpoint/Steps=60", "Contact solver/Type=penalty"},
                     1},
+      // Corners and edges of a free rigid body.
+      RestartedCase{"dropped_box", {"Time/End=0.03", "Checkpoint/Steps=60"}, 2},
       RestartedCase{"lap_joint", {"Time/End=5.5e-5", "Checkpoint/Interval=2e-5"}, 2},
       // Two unlike meshes, both sides slave and master.
       RestartedCase{"two_bars",
