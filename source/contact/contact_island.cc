@@ -1,6 +1,7 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact_island.h>
 #include <akmon/contact/coulomb.h>
+#include <akmon/contact/gauss_seidel.h>
 
 #include <algorithm>
 #include <cmath>
@@ -114,7 +115,7 @@ namespace akmon
     if (closed_solution)
       solve_alone(*members.front());
     else
-      solve_together(members, newton);
+      solve_together(members, parameters, newton);
   }
 
 
@@ -133,7 +134,9 @@ namespace akmon
 
 
   void
-  ContactIsland::solve_together(const std::vector<const ClosingPair *> &members, Newton &newton)
+  ContactIsland::solve_together(const std::vector<const ClosingPair *> &members,
+                                const ContactSolver &parameters,
+                                Newton &newton)
   {
     // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
     // for gaps (SemismoothNewton).
@@ -150,6 +153,8 @@ namespace akmon
       }
     result                     = newton.solve(problem, delassus, preconditioner, tau, faces);
     problem.start_is_reference = true; // of the next gaps of the same step
+    if (!result.converged && delassus.matrix().size() > 0)
+      start_elsewhere(parameters.limit, newton);
     if (!preconditioner.is_old())
       iterations_when_new = result.n_applications;
     else if (result.n_applications > iterations_when_new + patience)
@@ -165,5 +170,34 @@ namespace akmon
                       pair.tangential_force.norm() <
                         (1. - 1e-12) * problem.friction[i] * pair.normal_force;
       }
+  }
+
+
+  // Where no solution was found there may be one all the same.
+  void
+  ContactIsland::start_elsewhere(const unsigned int limit, Newton &newton)
+  {
+    constexpr unsigned int n_sweeps = 200;
+
+    const auto with_closed_gaps = tau;
+    const Newton::Result failed = result;
+    unsigned int n_applications = failed.n_applications;
+    problem.limit               = limit;
+    for (const bool from_zero : {false, true})
+      {
+        if (from_zero)
+          tau.assign(tau.size(), {});
+        sweep(delassus.matrix(), problem, n_sweeps, tau);
+        result = newton.solve(problem, delassus, preconditioner, tau, faces);
+        n_applications += n_sweeps + result.n_applications;
+        if (result.converged)
+          break;
+      }
+    if (!result.converged)
+      {
+        tau    = with_closed_gaps;
+        result = failed;
+      }
+    result.n_applications = n_applications;
   }
 } // namespace akmon

@@ -93,7 +93,11 @@ namespace akmon
     void
     solve_alone(const ClosingPair &member);
     void
-    solve_together(const std::vector<const ClosingPair *> &members, Newton &newton);
+    solve_together(const std::vector<const ClosingPair *> &members,
+                   const ContactSolver &parameters,
+                   Newton &newton);
+    void
+    start_elsewhere(const unsigned int limit, Newton &newton);
 
     std::vector<ContactPair> pairs; ///< their nodes are numbers of the island
     std::vector<ContactNodes::Id> ids;
