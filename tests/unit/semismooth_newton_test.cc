@@ -126,7 +126,8 @@ namespace
   solve(const Problem &problem,
         const std::vector<double> &friction,
         std::vector<Vector> &t,
-        const unsigned int limit = 2000)
+        const unsigned int limit = 2000,
+        const double compliance  = 1e-7)
   {
     Diagonal diagonal;
     SemismoothNewton<const Problem, Diagonal> solver;
@@ -135,7 +136,7 @@ namespace
                                       friction,
                                       std::vector<double>(t.size(), 1.),
                                       norm_bound(problem.S),
-                                      1e-7,
+                                      compliance,
                                       tolerance,
                                       tolerance,
                                       limit,
@@ -239,6 +240,24 @@ namespace
     EXPECT_LE(result.n_applications, 5u); // the gradient at the end of a step comes on top
     for (unsigned int i = 0; i < 10; ++i)
       EXPECT_GE(t[i][0], 0.);
+  }
+
+
+  // What is stiff enough for a few references is not for such a compliance, nor for a stiffer one.
+  TEST(Complementarity, counts_what_the_compliance_leaves)
+  {
+    constexpr unsigned int n = 5;
+
+    const Problem problem(n, 0, 3);
+    std::vector<Vector> t(n);
+    const auto result = solve(problem, std::vector<double>(n, 0.), t, 2000, 10.);
+    EXPECT_FALSE(result.converged);
+    const auto w = problem.gaps(t);
+    double wrong = 0.;
+    for (unsigned int i = 0; i < n; ++i)
+      wrong = std::max(wrong, std::abs(std::min(t[i][0], w[i])));
+    EXPECT_GT(wrong, tolerance);
+    EXPECT_GE(result.residual, 0.1 * wrong);
   }
 
 

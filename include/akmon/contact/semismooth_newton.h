@@ -143,22 +143,22 @@ namespace akmon
 
       problem.set_compliance(compliance);
       problem.evaluate(t);
-      double residual = 0., last_error = std::numeric_limits<double>::max();
+      double last_error = std::numeric_limits<double>::max();
       for (unsigned int k = 0; k <= most_references; ++k)
         {
-          const double enough = std::max(0.5 * data->tolerance,
+          const double enough   = std::max(0.5 * data->tolerance,
                                          part * problem.error_of_compliance(t));
-          residual            = effort == Effort::given_limits ? solve_for_limits(enough, t) :
-                                                                 solve_for_reference(enough, effort, t);
-          const double error  = problem.error_of_compliance(t);
-          if (residual > enough || error <= data->tolerance)
-            break;
-          if (error <= data->sufficient && error > 0.5 * last_error)
-            return std::max(residual, error); // the rest would take long
+          const double residual = effort == Effort::given_limits ?
+                                    solve_for_limits(enough, t) :
+                                    solve_for_reference(enough, effort, t);
+          const double error    = problem.error_of_compliance(t);
+          if (residual > std::max(enough, data->sufficient) || error <= data->tolerance ||
+              (error <= data->sufficient && error > 0.5 * last_error)) // the rest would take long
+            return std::max(residual, error);
           last_error = error;
           problem.refer_to(t);
         }
-      return residual;
+      return problem.measure(t); // which is without compliance now
     }
 
     // Solve the problem with its present reference; returns the residual. For given friction limits
@@ -195,7 +195,7 @@ namespace akmon
             }
         }
       problem.free_limits();
-      return residual;
+      return problem.measure(t); // where limits have led
     }
 
     double

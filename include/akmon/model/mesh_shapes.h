@@ -58,7 +58,8 @@ namespace akmon
   {
     dealii::Tensor<1, 3> size;         ///< edge lengths; length
     std::array<unsigned int, 3> cells; ///< number of cells along x, y, z
-    dealii::Tensor<1, 3> grading;      ///< length of the last cell over that of the first
+    dealii::Tensor<1, 3> grading = dealii::Tensor<1, 3>(
+      {1., 1., 1.}); ///< length of the last cell over that of the first
 
     static void
     declare(dealii::ParameterHandler &prm);

@@ -195,7 +195,7 @@ namespace
                       shape = "  set Shape = box\n  subsection Box\n"
                               "   set Size = 0.6, 0.55, 0.2\n  end\n";
     for (const auto &[solver, tolerance, of_force] :
-         {std::make_tuple("decoupled", 1e-14, 1e-8), std::make_tuple("coupled", 2e-7, 1e-6)})
+         {std::make_tuple("decoupled", 1e-14, 1e-8), std::make_tuple("coupled", 5e-7, 1e-6)})
       {
         const std::vector<std::string> overrides{std::string("Contact solver/Type=") + solver};
         const Table meshed = run(slab + held + tool(path + file) + every_step, overrides),
