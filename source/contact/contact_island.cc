@@ -109,10 +109,7 @@ namespace akmon
     problem.tolerance  = tolerance;
     problem.sufficient = std::max(parameters.tolerance, tolerance);
     // Where no friction was found in this step none would be now: gaps are closed at once.
-    const bool rubs = std::any_of(problem.friction.begin(),
-                                  problem.friction.end(),
-                                  [](const double mu) { return mu > 0.; });
-    problem.limit   = result.converged || !rubs ? parameters.limit : 1;
+    problem.limit = result.converged || !problem.rubs() ? parameters.limit : 1;
     for (std::size_t i = 0; i < pairs.size(); ++i)
       pairs[i].target_gap = members[i]->pair.target_gap;
     if (closed_solution)

@@ -29,6 +29,13 @@ namespace akmon
     double sufficient;            ///< the same where it takes too long
     unsigned int limit;           ///< of applications of A
     bool start_is_reference;      ///< t_0 is the start, which solves almost the same problem
+
+    /// Whether there is any friction.
+    bool
+    rubs() const
+    {
+      return std::any_of(friction.begin(), friction.end(), [](const double mu) { return mu > 0.; });
+    }
   };
 
 
@@ -201,14 +208,6 @@ namespace akmon
     coefficient(const std::size_t i) const
     {
       return limits_are_given ? 0. : data->friction[i];
-    }
-
-    bool
-    rubs() const
-    {
-      return std::any_of(data->friction.begin(), data->friction.end(), [](const double mu) {
-        return mu > 0.;
-      });
     }
 
     /// phi

@@ -91,7 +91,7 @@ namespace akmon
           residual = solve_with(stiffer * data->compliance, 20, Effort::thorough, t);
         }
       const bool converged = residual <= data->sufficient;
-      if (!converged && problem.rubs())
+      if (!converged && data->rubs())
         residual = close_gaps(t);
       for (std::size_t i = 0; i < n; ++i) // what the tolerance left
         t[i] = CoulombFace::project(t[i], problem.limit_of(i, t[i]));
