@@ -6,7 +6,7 @@
 set -euo pipefail
 source_dir=$1
 build_dir=$2
-seconds=${3-300} # ten minutes of computing on two cores
+seconds=${3-320} # more than ten minutes of computing on two cores
 readers=(parameters mesh checkpoint)
 
 source "$source_dir/tests/checks/sanitized_build.sh"
