@@ -1,4 +1,5 @@
 #include <akmon/contact/edge_search.h>
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/penalty.h>
 
 #include <deal.II/base/bounding_box.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -20,16 +22,6 @@ namespace akmon
 
   namespace
   {
-    Segment
-    initial_corners(const Discretization &discretization, const BoundaryFace &face)
-    {
-      Segment corners;
-      for (unsigned int k = 0; k < 4; ++k)
-        corners[k] = at_node(discretization.reference, face.nodes[k]);
-      return corners;
-    }
-
-
     // The angle by which the surface turns outward from one face to the next, across the edge from
     // the first one's corner k on; negative in valleys.
     double
@@ -38,23 +30,12 @@ namespace akmon
                  const BoundaryFace &second,
                  const unsigned int k)
     {
-      const auto corners = initial_corners(discretization, first);
+      const auto corners = segment_of(first, discretization.reference);
       const auto along   = corners[(k + 1) % 4] - corners[k];
       const auto a       = area_vector(corners);
-      const auto b       = area_vector(initial_corners(discretization, second));
+      const auto b       = area_vector(segment_of(second, discretization.reference));
       const double sine = cross_product_3d(a, b) * along / along.norm(), cosine = a * b;
       return std::atan2(sine, cosine);
-    }
-
-
-    double
-    least_edge(const Discretization &discretization, const BoundaryFace &face)
-    {
-      const auto corners = initial_corners(discretization, face);
-      double least       = std::numeric_limits<double>::max();
-      for (unsigned int k = 0; k < 4; ++k)
-        least = std::min(least, (corners[(k + 1) % 4] - corners[k]).norm());
-      return least;
     }
 
 
@@ -157,11 +138,12 @@ namespace akmon
         for (const auto &side : {first[0], first[1]})
           if (on_surface.count(side.face->id) > 0)
             {
-              const auto &face    = *side.face;
-              edge.edge.body      = face.body;
-              edge.edge.size      = std::min(edge.edge.size, least_edge(discretization, face));
-              edge.edge.depth     = std::min(edge.edge.depth, face.depth);
-              edge.edge.stiffness = std::min(edge.edge.stiffness,
+              const auto &face                = *side.face;
+              edge.edge.body                  = face.body;
+              edge.edge.size                  = std::min(edge.edge.size,
+                                        least_edge(segment_of(face, discretization.reference)));
+              edge.edge.depth                 = std::min(edge.edge.depth, face.depth);
+              edge.edge.stiffness             = std::min(edge.edge.stiffness,
                                              penalty_stiffness(discretization, face));
               edge.faces[edge.edge.n_faces++] = face.nodes;
             }

@@ -1,3 +1,4 @@
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/feature_search.h>
 #include <akmon/contact/penalty.h>
 
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // Which faces the sharp features of rigid bodies may meet.
 
@@ -18,26 +20,6 @@ namespace akmon
 
   namespace
   {
-    Segment
-    corners_of(const BoundaryFace &face, const NodalVector &x)
-    {
-      Segment corners;
-      for (unsigned int k = 0; k < 4; ++k)
-        corners[k] = at_node(x, face.nodes[k]);
-      return corners;
-    }
-
-
-    double
-    least_edge(const Segment &corners)
-    {
-      double least = std::numeric_limits<double>::max();
-      for (unsigned int k = 0; k < 4; ++k)
-        least = std::min(least, (corners[(k + 1) % 4] - corners[k]).norm());
-      return least;
-    }
-
-
     BoundingBox<3>
     box_around(const Segment &corners, const double margin)
     {
@@ -69,7 +51,7 @@ namespace akmon
     // The largest face's, which does not depend on the order of a sum.
     double largest = 0.;
     for (const auto &face : faces)
-      largest = std::max(largest, area_vector(corners_of(face, discretization.reference)).norm());
+      largest = std::max(largest, area_vector(segment_of(face, discretization.reference)).norm());
     least_radius = search_radius = 0.5 *
                                    std::sqrt(
                                      Utilities::MPI::max(largest, discretization.communicator()));
@@ -117,21 +99,15 @@ namespace akmon
   {
     if (!exists())
       return {};
-    double largest_diagonal = 0.;
-    for (const auto &face : surface_faces)
-      for (unsigned int k = 0; k < 2; ++k)
-        largest_diagonal = std::max(largest_diagonal,
-                                    (at_node(x, face.nodes[k]) - at_node(x, face.nodes[k + 2]))
-                                      .norm());
     // Neighbours of the faces within the radius come along: their normals count.
     const auto box = box_of_features(
-      search_radius + Utilities::MPI::max(largest_diagonal, discretization.communicator()));
+      search_radius + largest_diagonal(surface_faces, x, discretization.communicator()));
     std::vector<FeatureSurface::Face> near;
     for (const auto &face : surface_faces)
       {
         if (!face.owned)
           continue;
-        const auto corners = corners_of(face, x);
+        const auto corners = segment_of(face, x);
         bool overlaps      = true;
         for (unsigned int d = 0; d < 3; ++d)
           {
@@ -144,7 +120,7 @@ namespace akmon
         near.push_back({face.id,
                         face.depth,
                         penalty_stiffness(discretization, face),
-                        least_edge(corners_of(face, discretization.reference)),
+                        least_edge(segment_of(face, discretization.reference)),
                         {},
                         {}});
         for (unsigned int k = 0; k < 4; ++k)

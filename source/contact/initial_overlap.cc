@@ -1,5 +1,5 @@
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/initial_overlap.h>
-#include <akmon/contact/projection.h>
 #include <akmon/model/hexahedron_cell.h>
 #include <akmon/output/history.h>
 #include <akmon/parameters.h>
@@ -219,9 +219,7 @@ namespace akmon
         for (const auto &face : discretization.boundary_faces())
           if (!boxes.partners[face.body].empty())
             {
-              Segment corners;
-              for (unsigned int k = 0; k < 4; ++k)
-                corners[k] = at_node(discretization.reference, face.nodes[k]);
+              const Segment corners = segment_of(face, discretization.reference);
               entries[face.body].emplace_back(box_of(corners).bounding_box(),
                                               faces[face.body].size());
               faces[face.body].push_back(corners);

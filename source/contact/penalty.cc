@@ -1,4 +1,5 @@
 #include <akmon/contact/contact.h>
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/penalty.h>
 #include <akmon/output/history.h>
 
@@ -16,9 +17,7 @@ namespace akmon
   double
   penalty_stiffness(const Discretization &discretization, const BoundaryFace &face)
   {
-    Segment corners;
-    for (unsigned int k = 0; k < 4; ++k)
-      corners[k] = at_node(discretization.reference, face.nodes[k]);
+    const auto corners  = segment_of(face, discretization.reference);
     const auto &elastic = discretization.material_of(face.body).elasticity();
     // V = A times the depth
     return (elastic.lambda + 2. / 3. * elastic.mu) * area_vector(corners).norm() / face.depth;

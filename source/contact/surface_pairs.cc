@@ -1,3 +1,4 @@
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/surface_search.h>
 
 #include <algorithm>
@@ -26,10 +27,7 @@ namespace akmon
     for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
       {
         const auto &face = slave_faces[slave_face_list[i]];
-        normal += area_vector({{at_node(positions, face.nodes[0]),
-                                at_node(positions, face.nodes[1]),
-                                at_node(positions, face.nodes[2]),
-                                at_node(positions, face.nodes[3])}});
+        normal += area_vector(segment_of(face, positions));
       }
     return normal;
   }

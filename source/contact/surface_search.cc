@@ -1,3 +1,4 @@
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/penalty.h>
 #include <akmon/contact/surface_search.h>
 
@@ -29,10 +30,7 @@ namespace akmon
     double
     face_size(const Discretization &discretization, const BoundaryFace &face)
     {
-      Segment corners;
-      for (unsigned int k = 0; k < 4; ++k)
-        corners[k] = at_node(discretization.reference, face.nodes[k]);
-      return std::sqrt(area_vector(corners).norm());
+      return std::sqrt(area_vector(segment_of(face, discretization.reference)).norm());
     }
 
 
@@ -140,14 +138,8 @@ namespace akmon
   std::vector<std::array<double, 6>>
   SurfaceSearch::slave_boxes_of_all_ranks(const NodalVector &x) const
   {
-    double largest_diagonal = 0.;
-    for (const auto &face : master_faces)
-      for (unsigned int k = 0; k < 2; ++k)
-        largest_diagonal = std::max(largest_diagonal,
-                                    (at_node(x, face.nodes[k]) - at_node(x, face.nodes[k + 2]))
-                                      .norm());
     const double margin = search_radius +
-                          Utilities::MPI::max(largest_diagonal, discretization.communicator());
+                          largest_diagonal(master_faces, x, discretization.communicator());
 
     std::vector<Point<3>> points;
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <akmon/contact/projection.h>
+#include <akmon/contact/face_geometry.h>
 
 #include <cmath>
 #include <fstream>
@@ -165,9 +165,7 @@ end
     double depth      = -1.;
     for (const auto &face : model.faces_on(model.boundary_ids("", "", "slab:z+")))
       {
-        Segment corners;
-        for (unsigned int k = 0; k < 4; ++k)
-          corners[k] = at_node(simulation.current_state().x, face.nodes[k]);
+        const Segment corners = segment_of(face, simulation.current_state().x);
         // Newton for (xi, eta) above which the point is.
         double xi = 0., eta = 0.;
         Vector r;
