@@ -10,8 +10,10 @@ namespace akmon
 {
   using namespace dealii;
 
-  BodyMotions::BodyMotions(const Discretization &discretization)
+  BodyMotions::BodyMotions(const Discretization &discretization,
+                           const std::vector<unsigned int> &surface_nodes)
     : discretization(discretization)
+    , surface_nodes(surface_nodes)
     , largest_of_bodies(2 * discretization.get_bodies().size(), 0.)
     , motions(discretization.get_bodies().size())
     , motions_within(motions)
@@ -24,7 +26,7 @@ namespace akmon
   BodyMotions::mean_increments(const NodalState &state) const
   {
     std::vector<double> sums(7 * motions.size(), 0.);
-    for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
+    for (const unsigned int node : surface_nodes)
       {
         double *const sum   = &sums[7 * discretization.body_of_node[node]];
         const auto previous = at_node(state.dx, node), next = at_node(state.dx_next, node);
@@ -49,7 +51,7 @@ namespace akmon
   {
     const auto means = mean_increments(state);
     std::fill(largest_of_bodies.begin(), largest_of_bodies.end(), 0.);
-    for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
+    for (const unsigned int node : surface_nodes)
       {
         const unsigned int body = discretization.body_of_node[node];
         const auto previous = at_node(state.dx, node), next = at_node(state.dx_next, node);

@@ -167,7 +167,7 @@ namespace akmon
     , nodes(discretization, surface_nodes, rigid_nodes.n)
     , bonds(std::make_unique<Bonds>(discretization, contacts, conditions))
     , coupled(std::make_unique<CoupledSolver>(solver, nodes, mobility, bonds.get()))
-    , motions(discretization)
+    , motions(discretization, surface_nodes)
   {
     bonds->set_numbers(nodes);
     if (solver.type == ContactSolver::Type::penalty && !rigid_touches.empty())

@@ -11,14 +11,16 @@ namespace
   using namespace akmon;
   using namespace akmon::test;
 
-  // The first body flies with (3, 0, 4), one of its nodes with (0, 0, 2) more; the other rests.
+  // The first body flies with (3, 0, 4), one of its nodes with (0, 0, 2) more; the other rests. The
+  // first body's last node is on no contact surface, and faster than all others.
   struct Flight
   {
     Flight()
       : boxes(2, 3, 0., false)
-      , motions(boxes.discretization)
+      , motions(boxes.discretization, surface_nodes)
     {
-      bool first = true;
+      bool first        = true;
+      unsigned int last = 0;
       for (unsigned int node = 0; node < boxes.discretization.n_owned_nodes; ++node)
         if (boxes.discretization.body_of_node[node] == 0)
           {
@@ -28,14 +30,22 @@ namespace
                 boxes.state.dx[3 * node + d] = boxes.state.dx_next[3 * node + d] = v;
               }
             first = false;
-            ++n_nodes;
+            last  = node;
+          }
+      boxes.state.dx_next[3 * last] = 1e3;
+      for (unsigned int node = 0; node < boxes.discretization.n_owned_nodes; ++node)
+        if (node != last)
+          {
+            surface_nodes.push_back(node);
+            n_nodes += boxes.discretization.body_of_node[node] == 0;
           }
       motions.measure(boxes.state);
     }
 
     Boxes boxes;
-    BodyMotions motions;
     double n_nodes = 0.;
+    std::vector<unsigned int> surface_nodes;
+    BodyMotions motions;
   };
 
 

@@ -9,9 +9,9 @@
 namespace akmon
 {
   /**
-   * How far the nodes of each body move: what tells which surfaces can meet in a step, body by
-   * body, so that fast bodies do not make slow ones look far. What a body's own surfaces may meet
-   * in is their motion seen from the mean motion of its nodes.
+   * How far the nodes of each body's contact surfaces move: what tells which of them can meet in a
+   * step, body by body, so that fast bodies do not make slow ones look far. What a body's own
+   * surfaces may meet in is their motion seen from the mean motion of these nodes.
    */
   class BodyMotions
   {
@@ -23,7 +23,9 @@ namespace akmon
       double way       = 0.; ///< in all steps so far
     };
 
-    explicit BodyMotions(const Discretization &discretization);
+    /// @param surface_nodes  owned nodes on any contact surface; referred to
+    BodyMotions(const Discretization &discretization,
+                const std::vector<unsigned int> &surface_nodes);
 
     /// Take up the increments to and from the present level (collective).
     void
@@ -64,6 +66,7 @@ namespace akmon
     include_neighbours();
 
     const Discretization &discretization;
+    const std::vector<unsigned int> &surface_nodes;
     double largest_increment = 0.;
     std::vector<double> largest_of_bodies; ///< without neighbours; then from the mean motion
     std::vector<Motion> motions, motions_within;
