@@ -14,18 +14,19 @@ namespace akmon
                            const std::vector<unsigned int> &surface_nodes)
     : discretization(discretization)
     , surface_nodes(surface_nodes)
-    , largest_of_bodies(2 * discretization.get_bodies().size(), 0.)
-    , motions(discretization.get_bodies().size())
-    , motions_within(motions)
+    , means(discretization.get_bodies().size())
+    , largest_of_bodies(means.size(), 0.)
+    , within_bodies(means.size(), 0.)
+    , increments(means.size(), 0.)
+    , increments_within(means.size(), 0.)
   {
   }
 
 
-  // By body: to and from the present level.
-  std::vector<std::array<Tensor<1, 3>, 2>>
-  BodyMotions::mean_increments(const NodalState &state) const
+  void
+  BodyMotions::measure_means(const NodalState &state)
   {
-    std::vector<double> sums(7 * motions.size(), 0.);
+    std::vector<double> sums(7 * means.size(), 0.);
     for (const unsigned int node : surface_nodes)
       {
         double *const sum   = &sums[7 * discretization.body_of_node[node]];
@@ -38,41 +39,61 @@ namespace akmon
         sum[6] += 1.;
       }
     Utilities::MPI::sum(sums, discretization.communicator(), sums);
-    std::vector<std::array<Tensor<1, 3>, 2>> means(motions.size());
     for (unsigned int body = 0; body < means.size(); ++body)
       for (unsigned int i = 0; i < 6; ++i)
         means[body][i / 3][i % 3] = sums[7 * body + i] / std::max(sums[7 * body + 6], 1.);
-    return means;
   }
 
 
   void
   BodyMotions::measure(const NodalState &state)
   {
-    const auto means = mean_increments(state);
-    std::fill(largest_of_bodies.begin(), largest_of_bodies.end(), 0.);
+    measure_means(state);
+    std::vector<double> squares(2 * means.size(), 0.);
     for (const unsigned int node : surface_nodes)
       {
         const unsigned int body = discretization.body_of_node[node];
         const auto previous = at_node(state.dx, node), next = at_node(state.dx_next, node);
-        double &largest = largest_of_bodies[body],
-               &within  = largest_of_bodies[motions.size() + body];
-        largest         = std::max({largest, previous.norm_square(), next.norm_square()});
-        within          = std::max({within,
-                                    (previous - means[body][0]).norm_square(),
-                                    (next - means[body][1]).norm_square()});
+        double &largest = squares[2 * body], &within = squares[2 * body + 1];
+        largest = std::max({largest, previous.norm_square(), next.norm_square()});
+        within  = std::max({within,
+                            (previous - means[body][0]).norm_square(),
+                            (next - means[body][1]).norm_square()});
       }
-    for (double &largest : largest_of_bodies)
-      largest = std::sqrt(largest);
-    Utilities::MPI::max(largest_of_bodies, discretization.communicator(), largest_of_bodies);
+    Utilities::MPI::max(squares, discretization.communicator(), squares);
     largest_increment = 0.;
-    for (unsigned int body = 0; body < motions.size(); ++body)
+    for (unsigned int body = 0; body < means.size(); ++body)
       {
-        largest_increment = std::max(largest_increment, largest_of_bodies[body]);
-        motions[body].way += largest_of_bodies[body];
-        motions_within[body].way += largest_of_bodies[motions.size() + body];
+        largest_of_bodies[body] = std::sqrt(squares[2 * body]);
+        within_bodies[body]     = std::sqrt(squares[2 * body + 1]);
+        largest_increment       = std::max(largest_increment, largest_of_bodies[body]);
       }
+    measure_largest_approach();
     include_neighbours();
+  }
+
+
+  // No two means are further apart than the corners of the box around all of them.
+  void
+  BodyMotions::measure_largest_approach()
+  {
+    double of_means = 0.;
+    for (const unsigned int level : {0U, 1U})
+      {
+        Tensor<1, 3> widths;
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            const auto [least, largest] = std::minmax_element(means.begin(),
+                                                              means.end(),
+                                                              [&](const auto &a, const auto &b) {
+                                                                return a[level][d] < b[level][d];
+                                                              });
+            widths[d]                   = (*largest)[level][d] - (*least)[level][d];
+          }
+        of_means = std::max(of_means, widths.norm());
+      }
+    const double within = *std::max_element(within_bodies.begin(), within_bodies.end());
+    largest_relative    = std::min(of_means + 2. * within, 2. * largest_increment);
   }
 
 
@@ -93,14 +114,11 @@ namespace akmon
   void
   BodyMotions::include_neighbours()
   {
-    for (unsigned int body = 0; body < motions.size(); ++body)
-      {
-        motions[body].increment        = largest_of_bodies[body];
-        motions_within[body].increment = largest_of_bodies[motions.size() + body];
-      }
+    increments         = largest_of_bodies;
+    increments_within  = within_bodies;
     const auto include = [&](const unsigned int body, const unsigned int neighbour) {
-      for (Motion *const motion : {&motions[body], &motions_within[body]})
-        motion->increment = std::max(motion->increment, largest_of_bodies[neighbour]);
+      for (double *const increment : {&increments[body], &increments_within[body]})
+        *increment = std::max(*increment, largest_of_bodies[neighbour]);
     };
     for (const auto &[a, b] : neighbours)
       if (a != b)

@@ -71,9 +71,13 @@ namespace akmon
     const double of_rigid_bodies = fastest_rigid_motion(state);
     const double fastest         = std::max(motions.largest(), of_rigid_bodies);
     const double least_radius    = least_radius_of_searches();
-    // Two surfaces can approach each other at twice the speed of the faster one.
-    moved += 2. * fastest;
-    travelled += 2. * fastest;
+    const bool has_features      = std::any_of(feature_searches.begin(),
+                                          feature_searches.end(),
+                                          [](const auto &search) { return search.exists(); });
+    moved += has_features ?
+               std::max(motions.largest_approach(), motions.largest() + of_rigid_bodies) :
+               motions.largest_approach();
+    travelled += motions.largest() + of_rigid_bodies;
     const double reach_of_obstacles = steps * fastest;
     double reach = reach_of_obstacles, least_reach = steps * of_rigid_bodies;
     if (!searches.empty())
@@ -88,7 +92,7 @@ namespace akmon
       for (const auto &search : searches)
         reach = least_reach = std::max(reach, search.radius());
 
-    const std::vector<ContactPair> previous = std::move(pairs);
+    std::swap(pairs, previous);
     pairs.clear();
     nodes.gather(state.x, x);
     nodes.gather(state.dx, dx);
@@ -105,7 +109,7 @@ namespace akmon
         if (last && !edge_searches.empty())
           edge_searches[interface].find_pairs(x, x_reached, reach, previous, pairs);
       }
-    find_obstacle_pairs(state, reach_of_obstacles, previous);
+    find_obstacle_pairs(state, reach_of_obstacles);
     if (bonds->exist())
       pairs.erase(std::remove_if(pairs.begin(),
                                  pairs.end(),
@@ -114,15 +118,13 @@ namespace akmon
     seconds_of_search += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
                            .count();
     if (solver.type != ContactSolver::Type::decoupled)
-      warm_start(previous);
+      warm_start();
   }
 
 
   // Pairs in the order of their keys.
   void
-  Contact::find_obstacle_pairs(const NodalState &state,
-                               const double reach,
-                               const std::vector<ContactPair> &previous)
+  Contact::find_obstacle_pairs(const NodalState &state, const double reach)
   {
     for (unsigned int i = 0; i < bodies.size(); ++i)
       {
@@ -191,7 +193,7 @@ namespace akmon
       {
         if (!prepared)
           search.forget_distances();
-        search.build_candidates(nodes, state.x, x, motions, moved);
+        search.build_candidates(nodes, state.x, x, moved);
         search.collect_neighbours(neighbours);
       }
     motions.set_neighbours(neighbours);
@@ -217,7 +219,7 @@ namespace akmon
 
   // A pair that was there a step ago starts from its forces. Both lists are sorted alike.
   void
-  Contact::warm_start(const std::vector<ContactPair> &previous)
+  Contact::warm_start()
   {
     auto old = previous.begin();
     for (auto &pair : pairs)

@@ -53,8 +53,8 @@ namespace akmon
       if (bodies[i].moves())
         {
           const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
-          mobility.set_common(first, bodies[i].translation_mobility());
-          mobility.set_common(first + 1, bodies[i].rotation_mobility());
+          mobility.set(first, bodies[i].translation_mobility());
+          mobility.set(first + 1, bodies[i].rotation_mobility());
         }
   }
 

@@ -1,6 +1,5 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact_island.h>
-#include <akmon/contact/coulomb.h>
 #include <akmon/contact/gauss_seidel.h>
 
 #include <algorithm>
@@ -19,12 +18,9 @@ namespace akmon
     constexpr std::size_t most_assembled = 32; // pairs
 
     number_nodes(members, first_common_id);
-    closed_solution = members.size() == 1 && !bonds && moves_alike(pairs.front());
     delassus.reinit(pairs, mobility, effective_mass_factor);
     result                     = {0, 0., true};
     problem.start_is_reference = false;
-    if (closed_solution)
-      return;
     if (bonds)
       delassus.set_bonds(*bonds, ids);
     else if (pairs.size() <= most_assembled)
@@ -56,7 +52,7 @@ namespace akmon
     const auto number = [&](const ContactNodes::Id id) {
       return static_cast<unsigned int>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
     };
-    std::vector<SymmetricTensor<2, 3>> W(ids.size());
+    mobility.reinit(ids.size(), number(first_common_id));
     pairs.clear();
     for (const ClosingPair *const member : members)
       {
@@ -65,25 +61,9 @@ namespace akmon
           {
             const unsigned int node = number(member->ids[k]);
             pairs.back().nodes[k]   = node;
-            W[node]                 = member->mobility[k];
+            mobility.set(node, member->mobility[k]);
           }
       }
-    mobility.reinit(std::move(W), number(first_common_id));
-  }
-
-
-  // A node alone may be guided along the contact plane; what is held moves with nobody.
-  bool
-  ContactIsland::moves_alike(const ContactPair &pair) const
-  {
-    if (pair.levered || pair.n_rotations > 0)
-      return false;
-    for (unsigned int k = 0; k < pair.n_nodes; ++k)
-      if (const unsigned int node = pair.nodes[k];
-          !mobility.is_held(node) &&
-          !(pair.n_nodes == 1 ? mobility.is_free_along(node, pair.normal) : mobility.is_free(node)))
-        return false;
-    return true;
   }
 
 
@@ -112,32 +92,6 @@ namespace akmon
     problem.limit = result.converged || !problem.rubs() ? parameters.limit : 1;
     for (std::size_t i = 0; i < pairs.size(); ++i)
       pairs[i].target_gap = members[i]->pair.target_gap;
-    if (closed_solution)
-      solve_alone(*members.front());
-    else
-      solve_together(members, parameters, newton);
-  }
-
-
-  void
-  ContactIsland::solve_alone(const ClosingPair &member)
-  {
-    ContactPair &pair     = pairs.front();
-    const double s        = delassus.scale().front();
-    const auto &moved     = member.free_motion;
-    pair.normal_force     = std::max(0., -s * s * (pair.normal * moved + member.pair.target_gap));
-    const auto friction   = Coulomb::tangential_force(-s * s * pair.tangential_part(moved),
-                                                    member.friction * pair.normal_force);
-    pair.tangential_force = friction.force;
-    pair.sticks           = friction.sticks;
-  }
-
-
-  void
-  ContactIsland::solve_together(const std::vector<const ClosingPair *> &members,
-                                const ContactSolver &parameters,
-                                Newton &newton)
-  {
     // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
     // for gaps (SemismoothNewton).
     constexpr double compliance     = 1e-7;

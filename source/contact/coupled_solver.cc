@@ -1,4 +1,5 @@
 #include <akmon/contact/bonds.h>
+#include <akmon/contact/coulomb.h>
 #include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/gather.h>
 #include <akmon/contact/united_sets.h>
@@ -109,6 +110,7 @@ namespace akmon
           }
         else
           take_target_gaps();
+        solve_lone_pairs();
         solve_islands(tolerance);
         bring_forces_home();
         response.update();
@@ -200,11 +202,12 @@ namespace akmon
   void
   CoupledSolver::take_target_gaps()
   {
-    std::vector<double> gaps;
+    gaps.clear();
     for (std::size_t i = 0; i < all.size(); ++i)
       if (active[i])
         gaps.push_back(all[i]->target_gap);
-    gaps = gather(gaps, nodes.get_communicator());
+    if (nodes.is_parallel())
+      gaps = gather(gaps, nodes.get_communicator());
     for (std::size_t i = 0; i < order.size(); ++i)
       closing[i].pair.target_gap = gaps[order[i]];
   }
@@ -225,7 +228,7 @@ namespace akmon
   CoupledSolver::divide_into_islands()
   {
     const ContactNodes::Id n_ids = nodes.first_common_id() + nodes.size() - nodes.first_common();
-    std::vector<unsigned int> last_at(n_ids + 1, numbers::invalid_unsigned_int);
+    last_at.resize(n_ids + 1, numbers::invalid_unsigned_int);
     std::vector<bool> bonded(closing.size());
     UnitedSets sets(closing.size());
     const auto meet = [&](const unsigned int i, const ContactNodes::Id node) {
@@ -242,8 +245,14 @@ namespace akmon
         if (bonded[i])
           meet(i, n_ids);
       }
+    // There are far more nodes than pairs: only these are put back.
+    last_at[n_ids] = numbers::invalid_unsigned_int;
+    for (const ClosingPair &closing_pair : closing)
+      for (unsigned int k = 0; k < closing_pair.pair.n_nodes; ++k)
+        last_at[closing_pair.ids[k]] = numbers::invalid_unsigned_int;
 
     const unsigned int rank = Utilities::MPI::this_mpi_process(nodes.get_communicator());
+    lone.clear();
     std::map<Key, std::unique_ptr<Island>> old = std::move(islands);
     islands.clear();
     for (const auto &list : sets.lists())
@@ -251,6 +260,11 @@ namespace akmon
         const ClosingPair &first = closing[list.front()];
         if (first.rank != rank)
           continue;
+        if (list.size() == 1 && !bonded[list.front()] && mobility.moves_alike(*all[first.number]))
+          {
+            lone.push_back(&first);
+            continue;
+          }
         // Moved as it is, which asks for no memory.
         auto known   = old.extract(first.pair.key());
         auto &island = (known ? islands.insert(std::move(known)).position :
@@ -275,13 +289,34 @@ namespace akmon
   }
 
 
+  // A_ii is a multiple of the identity, at least where the nodes can move: (80) and (82).
+  void
+  CoupledSolver::solve_lone_pairs()
+  {
+    for (const ClosingPair *const closing_pair : lone)
+      {
+        ContactPair &pair       = *all[closing_pair->number];
+        const auto &free_motion = closing_pair->free_motion;
+        const double A_ii       = mobility.along(pair, pair.normal, mass_factor);
+        const double stiffness  = A_ii > 0. ? 1. / A_ii : 0.; // else forces move nothing
+        const double gap        = pair.normal * free_motion + pair.target_gap;
+        pair.normal_force       = std::max(0., -stiffness * gap);
+        const auto friction     = Coulomb::tangential_force(-stiffness *
+                                                          pair.tangential_part(free_motion),
+                                                        closing_pair->friction * pair.normal_force);
+        pair.tangential_force   = friction.force;
+        pair.sticks             = friction.sticks;
+      }
+  }
+
+
   void
   CoupledSolver::solve_islands(const double tolerance)
   {
     std::vector<double> sums(2, 0.), worst(2, 0.);
     for (auto &[key, island] : islands)
       {
-        const double n = island->has_closed_solution() ? 0. : island->members.size();
+        const double n = island->members.size();
         sums[1] += n;
         island->is_new = !island->is_solved || !island->is_solved_for(island->members);
         if (!island->is_new)
@@ -307,7 +342,7 @@ namespace akmon
   {
     const MPI_Comm communicator = nodes.get_communicator();
     const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
-    std::vector<Solved> solved;
+    solved.clear();
     for (const auto &[key, island] : islands)
       for (std::size_t i = 0; i < island->members.size() && island->is_new; ++i)
         {
@@ -318,7 +353,9 @@ namespace akmon
                             pair.tangential_force,
                             pair.sticks});
         }
-    for (const Solved &of_pair : gather(solved, communicator))
+    if (nodes.is_parallel())
+      solved = gather(solved, communicator);
+    for (const Solved &of_pair : solved)
       if (of_pair.rank == rank)
         {
           ContactPair &pair     = *all[of_pair.number];

@@ -97,9 +97,9 @@ namespace akmon
   // Row sums of the norms of A's blocks bound its norm: node by node, the coefficients of all pairs
   // at the node.
   double
-  Delassus::norm_bound() const
+  Delassus::norm_bound()
   {
-    std::vector<double> at_node(mobility->size(), 0.);
+    at_node.assign(mobility->size(), 0.);
     for (std::size_t i = 0; i < pairs->size(); ++i)
       for (unsigned int k = 0; k < (*pairs)[i].n_nodes; ++k)
         at_node[(*pairs)[i].nodes[k]] += (*pairs)[i].bound_at_node(k) * scales[i];

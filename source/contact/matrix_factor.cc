@@ -19,6 +19,7 @@ namespace akmon
 
     Kind kind = Kind::cholesky;
     Eigen::MatrixXd matrix;
+    Eigen::VectorXd permuted;
     Eigen::LLT<Eigen::MatrixXd> cholesky;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu;
     Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> sparse_cholesky;
@@ -53,7 +54,7 @@ namespace akmon
       if (symmetric)
         return cholesky.compute(matrix).info() == Eigen::Success;
       lu.compute(matrix);
-      const Eigen::ArrayXd pivots = lu.matrixLU().diagonal().cwiseAbs();
+      const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
       return pivots.minCoeff() > rounding * pivots.maxCoeff();
     }
   };
@@ -96,7 +97,10 @@ namespace akmon
           factors->cholesky.solveInPlace(values);
           break;
         case Factors::Kind::lu:
-          values = factors->lu.solve(values).eval();
+          factors->permuted.noalias() = factors->lu.permutationP() * values;
+          factors->lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(factors->permuted);
+          factors->lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(factors->permuted);
+          values.swap(factors->permuted);
           break;
         case Factors::Kind::sparse_cholesky:
           values = factors->sparse_cholesky.solve(values).eval();

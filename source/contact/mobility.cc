@@ -45,4 +45,18 @@ namespace akmon
       }
     return sum / mass_factor;
   }
+
+
+  // A node alone may be guided along the contact plane; what is held moves with nobody.
+  bool
+  Mobility::moves_alike(const ContactPair &pair) const
+  {
+    if (pair.levered || pair.n_rotations > 0)
+      return false;
+    for (unsigned int k = 0; k < pair.n_nodes; ++k)
+      if (const unsigned int node = pair.nodes[k];
+          !is_held(node) && !(pair.n_nodes == 1 ? is_free_along(node, pair.normal) : is_free(node)))
+        return false;
+    return true;
+  }
 } // namespace akmon

@@ -64,13 +64,13 @@ namespace akmon
           forget();
       }
     shift = new_shift;
-    std::vector<unsigned int> now_closed;
+    now_closed.clear();
     for (unsigned int i = 0; i < pairs->size(); ++i)
       if (is_closed(i, faces))
         now_closed.push_back(i);
     if (!groups.empty() && now_closed == closed && all_serve(faces))
       return;
-    closed = std::move(now_closed);
+    std::swap(closed, now_closed);
     if (is_assembled())
       {
         groups.front()->clear();

@@ -117,16 +117,22 @@ namespace akmon
     unsigned int with_least = numbers::invalid_unsigned_int;
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const unsigned int f  = candidates[i];
-        const auto &shape     = shape_of(x, f);
-        const double at_least = shape.bound_of_distance(point);
-        least_bounds[1]       = std::min(least_bounds[1], std::max(at_least, least_bounds[0]));
+        const unsigned int f = candidates[i];
+        double at_least      = candidates_clear_of[i] - travelled;
+        const bool is_far = f != memory.face && at_least > std::max(reach, std::min(bound, best));
+        if (!is_far)
+          {
+            at_least               = shape_of(x, f).bound_of_distance(point);
+            candidates_clear_of[i] = travelled + at_least;
+          }
+        least_bounds[1] = std::min(least_bounds[1], std::max(at_least, least_bounds[0]));
         if (at_least < least_bounds[0])
           {
             least_bounds[0] = at_least;
             with_least      = f;
           }
-        if (!looks_here(shape) || (f != memory.face && at_least > std::min(bound, best)))
+        if (is_far || (f != memory.face && at_least > std::min(bound, best)) ||
+            !looks_here(shapes[f]))
           continue;
         const Projection projection = f == memory.face ? of_last :
                                                          project(point, segment(x, masters[f]));
@@ -238,27 +244,25 @@ namespace akmon
   }
 
 
-  // Surfaces approach each other by no more than both have moved.
-  BodyMotions::Motion
-  SurfaceSearch::motion_around(const unsigned int slave, const BodyMotions &motions) const
+  // A step later. Forces may hand on the motion of a body to its neighbours.
+  void
+  SurfaceSearch::advance(const BodyMotions &motions)
   {
-    const unsigned int body = discretization.body_of_node[slaves[slave].node];
-    BodyMotions::Motion result;
-    bool meets_others = false;
-    for (unsigned int i = slaves[slave].first_neighbour; i < slaves[slave + 1].first_neighbour; ++i)
+    for (Surroundings &around : surroundings)
       {
-        const bool is_own  = neighbours[i] == body;
-        const auto &motion = is_own ? motions.within(body) : motions.of(neighbours[i]);
-        result.increment   = std::max(result.increment, motion.increment);
-        result.way += is_own ? 2. * motion.way : motion.way;
-        meets_others = meets_others || !is_own;
+        double approach  = 0.;
+        around.increment = 0.;
+        for (const unsigned int neighbour : around.neighbours)
+          {
+            const bool is_own = neighbour == around.body;
+            approach          = std::max(approach, motions.approach(around.body, neighbour));
+            around.increment  = std::max(around.increment,
+                                        is_own ? motions.within(neighbour) :
+                                                  std::max(motions.around(neighbour),
+                                                          motions.around(around.body)));
+          }
+        around.travelled += approach;
       }
-    if (meets_others)
-      {
-        result.increment = std::max(result.increment, motions.of(body).increment);
-        result.way += motions.of(body).way;
-      }
-    return result;
   }
 
 
@@ -271,16 +275,17 @@ namespace akmon
                             std::vector<ContactPair> &pairs)
   {
     ++n_searches;
+    advance(motions);
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
         if (slaves[s].first_candidate == slaves[s + 1].first_candidate)
           continue;
-        const auto around  = motion_around(s, motions);
-        const double reach = std::max(least_reach, steps * around.increment);
-        if (memories[s].clear_of - around.way > reach)
+        const Surroundings &around = surroundings[slaves[s].surroundings];
+        const double reach         = std::max(least_reach, steps * around.increment);
+        if (memories[s].clear_of - around.travelled > reach)
           continue;
         outwards[s] = slave_normal(positions, s);
-        find_pairs_of(x, s, around.way, reach, pairs);
+        find_pairs_of(x, s, around.travelled, reach, pairs);
       }
   }
 

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace akmon
 {
@@ -216,14 +217,9 @@ namespace akmon
   SurfaceSearch::build_candidates(const ContactNodes &nodes,
                                   const NodalVector &positions,
                                   const ContactNodes::Field &x,
-                                  const BodyMotions &motions,
                                   const double moved)
   {
-    // What is known does not reach beyond the faces that have been candidates.
-    shift_distances(motions, -1.);
-    for (Memory &memory : memories)
-      for (double *const distance : {&memory.clear_of, &memory.others_clear_of})
-        *distance = std::min(*distance, built_radius - moved);
+    settle_distances(moved);
     masters.clear();
     std::vector<BoxGrid::Box> boxes; // by face
     shapes.clear();
@@ -240,12 +236,10 @@ namespace akmon
     collect_faces_at_nodes(nodes.size());
     grid.reinit(std::move(boxes));
     candidates.clear();
-    neighbours.clear();
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
         Slave &slave          = slaves[s];
         slave.first_candidate = candidates.size();
-        slave.first_neighbour = neighbours.size();
         slave.id              = nodes.id_of_local(slave.node);
         slave.number          = nodes.number(slave.id);
         const auto outward    = slave_normal(positions, s);
@@ -259,11 +253,10 @@ namespace akmon
                                         candidates.end(),
                                         is_none),
                          candidates.end());
-        collect_neighbours_of(s);
       }
     slaves.back().first_candidate = candidates.size();
-    slaves.back().first_neighbour = neighbours.size();
-    shift_distances(motions, 1.);
+    candidates_clear_of.assign(candidates.size(), 0.);
+    collect_surroundings();
     find_last_faces();
     built_radius = search_radius;
   }
@@ -286,16 +279,18 @@ namespace akmon
   }
 
 
-  // Add what has been travelled around slaves so far, a number of times.
+  // To distances as they are now. What is known does not reach beyond the faces that have been
+  // candidates.
   void
-  SurfaceSearch::shift_distances(const BodyMotions &motions, const double times)
+  SurfaceSearch::settle_distances(const double moved)
   {
-    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-      {
-        const double shift = times * motion_around(s, motions).way;
-        memories[s].clear_of += shift;
-        memories[s].others_clear_of += shift;
-      }
+    for (unsigned int s = 0; s < memories.size(); ++s)
+      for (double *const distance : {&memories[s].clear_of, &memories[s].others_clear_of})
+        {
+          if (!surroundings.empty())
+            *distance -= surroundings[slaves[s].surroundings].travelled;
+          *distance = std::min(*distance, built_radius - moved);
+        }
   }
 
 
@@ -322,29 +317,42 @@ namespace akmon
   {
     memories.assign(slaves.size(), Memory());
     candidates.clear();
-    neighbours.clear();
+    surroundings.clear();
     for (Slave &slave : slaves)
-      slave.first_candidate = slave.first_neighbour = 0;
+      slave.first_candidate = slave.surroundings = 0;
   }
 
 
   void
-  SurfaceSearch::collect_neighbours_of(const unsigned int slave)
+  SurfaceSearch::collect_surroundings()
   {
-    for (std::size_t i = slaves[slave].first_candidate; i < candidates.size(); ++i)
-      if (const unsigned int body = masters[candidates[i]].body;
-          std::find(neighbours.begin() + slaves[slave].first_neighbour, neighbours.end(), body) ==
-          neighbours.end())
-        neighbours.push_back(body);
+    surroundings.clear();
+    std::map<std::pair<unsigned int, std::vector<unsigned int>>, unsigned int> numbers;
+    std::vector<unsigned int> neighbours;
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      {
+        neighbours.clear();
+        for (unsigned int i = slaves[s].first_candidate; i < slaves[s + 1].first_candidate; ++i)
+          if (const unsigned int body = masters[candidates[i]].body;
+              std::find(neighbours.begin(), neighbours.end(), body) == neighbours.end())
+            neighbours.push_back(body);
+        std::sort(neighbours.begin(), neighbours.end());
+        const unsigned int body    = discretization.body_of_node[slaves[s].node];
+        const auto [known, is_new] = numbers.try_emplace(std::make_pair(body, neighbours),
+                                                         surroundings.size());
+        if (is_new)
+          surroundings.push_back({body, neighbours});
+        slaves[s].surroundings = known->second;
+      }
   }
 
 
   void
   SurfaceSearch::collect_neighbours(std::vector<std::array<unsigned int, 2>> &bodies) const
   {
-    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-      for (unsigned int i = slaves[s].first_neighbour; i < slaves[s + 1].first_neighbour; ++i)
-        bodies.push_back({{discretization.body_of_node[slaves[s].node], neighbours[i]}});
+    for (const Surroundings &around : surroundings)
+      for (const unsigned int neighbour : around.neighbours)
+        bodies.push_back({{around.body, neighbour}});
   }
 
 

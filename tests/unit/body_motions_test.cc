@@ -53,19 +53,43 @@ namespace
   {
     Flight flight;
     EXPECT_NEAR(flight.motions.largest(), std::sqrt(45.), 1e-14);
-    EXPECT_NEAR(flight.motions.of(0).increment, std::sqrt(45.), 1e-14);
-    EXPECT_EQ(flight.motions.of(1).increment, 0.);
-    flight.motions.measure(flight.boxes.state);
-    EXPECT_NEAR(flight.motions.of(0).way, 2. * std::sqrt(45.), 1e-13);
-    EXPECT_EQ(flight.motions.of(1).way, 0.);
+    EXPECT_NEAR(flight.motions.around(0), std::sqrt(45.), 1e-14);
+    EXPECT_EQ(flight.motions.around(1), 0.);
   }
 
 
   TEST(BodyMotions, within_a_body_are_seen_from_its_mean_motion)
   {
     Flight flight;
-    EXPECT_NEAR(flight.motions.within(0).increment, 2. * (1. - 1. / flight.n_nodes), 1e-14);
-    EXPECT_EQ(flight.motions.within(1).increment, 0.);
+    EXPECT_NEAR(flight.motions.within(0), 2. * (1. - 1. / flight.n_nodes), 1e-14);
+    EXPECT_EQ(flight.motions.within(1), 0.);
+  }
+
+
+  // The mean motion is (3, 0, 4 + 2/n).
+  TEST(BodyMotions, bound_how_far_surfaces_approach_each_other)
+  {
+    Flight flight;
+    const double within   = 2. * (1. - 1. / flight.n_nodes);
+    const double of_means = std::hypot(3., 4. + 2. / flight.n_nodes);
+    EXPECT_NEAR(flight.motions.approach(0, 1), of_means + within, 1e-13);
+    EXPECT_NEAR(flight.motions.approach(0, 0), 2. * within, 1e-14);
+    EXPECT_EQ(flight.motions.approach(1, 1), 0.);
+    EXPECT_GE(flight.motions.largest_approach(), of_means + within);
+  }
+
+
+  // Bodies that fly together do not approach each other.
+  TEST(BodyMotions, of_a_common_flight_are_no_approach)
+  {
+    Flight flight;
+    for (unsigned int node = 0; node < flight.boxes.discretization.n_owned_nodes; ++node)
+      for (unsigned int d = 0; d < 3; ++d)
+        flight.boxes.state.dx[3 * node + d] = flight.boxes.state.dx_next[3 * node + d] = 1. + d;
+    flight.motions.measure(flight.boxes.state);
+    EXPECT_NEAR(flight.motions.largest(), std::sqrt(14.), 1e-14);
+    EXPECT_NEAR(flight.motions.approach(0, 1), 0., 1e-14);
+    EXPECT_NEAR(flight.motions.largest_approach(), 0., 1e-14);
   }
 
 
@@ -73,8 +97,8 @@ namespace
   {
     Flight flight;
     flight.motions.set_neighbours({{{1, 0}}, {{1, 1}}, {{1, 0}}});
-    EXPECT_NEAR(flight.motions.of(1).increment, std::sqrt(45.), 1e-14);
-    EXPECT_NEAR(flight.motions.within(1).increment, std::sqrt(45.), 1e-14);
-    EXPECT_EQ(flight.motions.of(1).way, 0.);
+    EXPECT_NEAR(flight.motions.around(1), std::sqrt(45.), 1e-14);
+    EXPECT_NEAR(flight.motions.within(1), std::sqrt(45.), 1e-14);
+    EXPECT_EQ(flight.motions.approach(1, 1), 0.);
   }
 } // namespace

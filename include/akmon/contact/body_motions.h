@@ -3,7 +3,9 @@
 #include <akmon/model/discretization.h>
 #include <akmon/model/nodal_state.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace akmon
@@ -16,13 +18,6 @@ namespace akmon
   class BodyMotions
   {
   public:
-    /// The motion of a body's fastest node; length
-    struct Motion
-    {
-      double increment = 0.; ///< in the step
-      double way       = 0.; ///< in all steps so far
-    };
-
     /// @param surface_nodes  owned nodes on any contact surface; referred to
     BodyMotions(const Discretization &discretization,
                 const std::vector<unsigned int> &surface_nodes);
@@ -45,31 +40,53 @@ namespace akmon
       return largest_increment;
     }
 
-    /// Of a body, with the increments of its neighbours.
-    const Motion &
-    of(const unsigned int body) const
+    /// By how much two surfaces can approach each other in the step at most, of whatever bodies;
+    /// length
+    double
+    largest_approach() const
     {
-      return motions[body];
+      return largest_relative;
     }
 
-    /// The same seen from the body's mean motion.
-    const Motion &
+    /// The same, of two bodies, or of one whose surface meets itself; length
+    double
+    approach(const unsigned int a, const unsigned int b) const
+    {
+      const double of_means = std::sqrt(std::max((means[a][0] - means[b][0]).norm_square(),
+                                                 (means[a][1] - means[b][1]).norm_square()));
+      return std::min(of_means + within_bodies[a] + within_bodies[b],
+                      largest_of_bodies[a] + largest_of_bodies[b]);
+    }
+
+    /// Largest increment of a node of a body or of its neighbours; length
+    double
+    around(const unsigned int body) const
+    {
+      return increments[body];
+    }
+
+    /// The same seen from the body's mean motion, but for the neighbours'.
+    double
     within(const unsigned int body) const
     {
-      return motions_within[body];
+      return increments_within[body];
     }
 
   private:
-    std::vector<std::array<dealii::Tensor<1, 3>, 2>>
-    mean_increments(const NodalState &state) const;
+    void
+    measure_means(const NodalState &state);
+    void
+    measure_largest_approach();
     void
     include_neighbours();
 
     const Discretization &discretization;
     const std::vector<unsigned int> &surface_nodes;
-    double largest_increment = 0.;
-    std::vector<double> largest_of_bodies; ///< without neighbours; then from the mean motion
-    std::vector<Motion> motions, motions_within;
+    double largest_increment = 0., largest_relative = 0.;
+    // By body: the mean increments to and from the present level, the largest increment, and the
+    // largest one seen from the mean; then both with neighbours.
+    std::vector<std::array<dealii::Tensor<1, 3>, 2>> means;
+    std::vector<double> largest_of_bodies, within_bodies, increments, increments_within;
     std::vector<std::array<unsigned int, 2>> neighbours;
   };
 } // namespace akmon

@@ -226,9 +226,7 @@ namespace akmon
     void
     rebuild_candidates(const NodalState &state, const double reach);
     void
-    find_obstacle_pairs(const NodalState &state,
-                        const double reach,
-                        const std::vector<ContactPair> &previous);
+    find_obstacle_pairs(const NodalState &state, const double reach);
     double
     radius_of_edges(const unsigned int interface) const;
     double
@@ -237,7 +235,7 @@ namespace akmon
     add_rigid_motions(ContactNodes::Field &field,
                       RigidIncrement (RigidBody::*motion)() const) const;
     void
-    warm_start(const std::vector<ContactPair> &previous);
+    warm_start();
     double
     release(const ContactPair &pair, const NodalState &state) const;
     void
@@ -304,7 +302,7 @@ namespace akmon
     ContactNodes::Field x, dx, dx_free, x_reached;
     ContactNodes::Field dx_reached;  ///< increments that the last solution leads to
     ContactNodes::Field dx_followed; ///< increments by contact that gaps have been measured for
-    std::vector<ContactPair> pairs;
+    std::vector<ContactPair> pairs, previous; ///< of this step, of the one before
     std::vector<ContactNodes::Contribution> contributions;
     std::vector<NodalForce> forces;
   };

@@ -69,33 +69,17 @@ namespace akmon
       return pairs;
     }
 
-    /// Of the last solution, which is none where a pair alone has a closed one.
+    /// Of the last solution.
     const Newton::Result &
     get_result() const
     {
       return result;
     }
 
-    /// Whether all there is is a pair with the closed solution (80)(82): A_ii is a multiple of the
-    /// identity, at least where the nodes can move.
-    bool
-    has_closed_solution() const
-    {
-      return closed_solution;
-    }
-
   private:
     void
     number_nodes(const std::vector<const ClosingPair *> &members,
                  const ContactNodes::Id first_common_id);
-    bool
-    moves_alike(const ContactPair &pair) const;
-    void
-    solve_alone(const ClosingPair &member);
-    void
-    solve_together(const std::vector<const ClosingPair *> &members,
-                   const ContactSolver &parameters,
-                   Newton &newton);
     void
     start_elsewhere(const unsigned int limit, Newton &newton);
 
@@ -105,8 +89,7 @@ namespace akmon
     Delassus delassus;
     PairPreconditioner preconditioner;
     unsigned int iterations_when_new = 0; ///< that fresh factors took
-    bool closed_solution             = false;
-    FrictionalProblem problem; ///< in tau_i = t_i/s_i
+    FrictionalProblem problem;            ///< in tau_i = t_i/s_i
     Delassus::Vector tau;
     std::vector<CoulombFace> faces;
     Newton::Result result{};

@@ -37,7 +37,7 @@ namespace akmon
     static double
     tangential_size(const Force &t)
     {
-      return std::hypot(t[1], t[2]);
+      return std::sqrt(t[1] * t[1] + t[2] * t[2]);
     }
 
     /// The closest force with t_n >= 0 and |t_tau| <= radius.
@@ -110,7 +110,7 @@ namespace akmon
   inline bool
   alike(const CoulombFace &a, const CoulombFace &b)
   {
-    constexpr double turned = 0.99, stiffened = 1.3, rougher = 0.03; // cosine; ratio; friction
+    constexpr double turned = 0.9999, stiffened = 1.01, rougher = 0.03; // cosine; ratio; friction
 
     if (a.normal != b.normal || a.tangential != b.tangential)
       return false;

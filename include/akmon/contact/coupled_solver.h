@@ -18,7 +18,8 @@ namespace akmon
    * An outer active set: pairs that had a force, or would penetrate without any, fall into islands
    * that share no node, each a problem of its own; pairs that their solution makes penetrate join,
    * and the islands they join are solved again, until there are none. An island is solved by the
-   * rank of its first pair, so that solutions do not depend on the number of ranks.
+   * rank of its first pair, so that solutions do not depend on the number of ranks. Most pairs with
+   * obstacles are alone and have the closed solution of the decoupled model.
    */
   class CoupledSolver
   {
@@ -134,6 +135,8 @@ namespace akmon
     bool
     is_bonded(const ClosingPair &closing) const;
     void
+    solve_lone_pairs();
+    void
     solve_islands(const double tolerance);
     void
     bring_forces_home();
@@ -149,13 +152,17 @@ namespace akmon
     std::vector<double> friction_of_all;
     std::vector<bool> active; ///< by number in `all`
     double mass_factor = 1.;
-    bool has_begun     = false;       ///< to solve in this step
-    std::vector<unsigned int> order;  ///< of the closing pairs: that they came in from the ranks
-    std::vector<ClosingPair> closing; ///< active pairs of all ranks, sorted by key
+    bool has_begun     = false;        ///< to solve in this step
+    std::vector<unsigned int> order;   ///< of the closing pairs: that they came in from the ranks
+    std::vector<ClosingPair> closing;  ///< active pairs of all ranks, sorted by key
+    std::vector<double> gaps;          ///< the target gaps of these
+    std::vector<Solved> solved;        ///< scratch for what islands tell
+    std::vector<unsigned int> last_at; ///< by node id: scratch while islands are made
+    std::vector<const ClosingPair *> lone; ///< pairs of this rank that have a closed solution
     std::map<Key, std::unique_ptr<Island>> islands; ///< that this rank solves, by their first pair
     bool friction_somewhere = false;
     double n_applications   = 0.; ///< to a pair, in all islands
-    double n_coupled        = 0.; ///< pairs in all islands that have no closed solution
+    double n_coupled        = 0.; ///< pairs in all islands
     double last_residual    = 0.;
     bool all_converged      = true;
   };

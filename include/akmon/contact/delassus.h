@@ -64,7 +64,7 @@ namespace akmon
 
     /// An upper bound of the norm of the scaled operator.
     double
-    norm_bound() const;
+    norm_bound();
 
     /// Rows: normal and two tangents of pair i. Forces and results of apply() are in these frames.
     const dealii::Tensor<2, 3> &
@@ -94,6 +94,7 @@ namespace akmon
     std::vector<double> scales;
     std::vector<dealii::Tensor<2, 3>> frames;
     ContactNodes::Field field;
+    std::vector<double> at_node; ///< sums for the bound of the norm
     Eigen::MatrixXd assembled;
     std::vector<Column> columns;      ///< of all pairs' nodes that can move
     std::vector<unsigned int> begins; ///< in columns, by pair, and one past the end

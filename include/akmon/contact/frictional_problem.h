@@ -70,6 +70,13 @@ namespace akmon
       reference = t;
     }
 
+    /// t_0 = 0
+    void
+    clear_reference()
+    {
+      reference.assign(data->b.size(), {});
+    }
+
     void
     set_compliance(const double c)
     {

@@ -23,11 +23,11 @@ namespace akmon
            const EssentialConditions &conditions,
            const ContactNodes &nodes);
 
-    /// Take W of nodes in another numbering, whose last ones are common nodes.
+    /// Nodes in another numbering, of which the last ones are common nodes; W is to be set.
     void
-    reinit(std::vector<dealii::SymmetricTensor<2, 3>> new_W, const unsigned int new_first_common)
+    reinit(const unsigned int n_nodes, const unsigned int new_first_common)
     {
-      W            = std::move(new_W);
+      W.resize(n_nodes);
       first_common = new_first_common;
     }
 
@@ -38,9 +38,9 @@ namespace akmon
       return W.size();
     }
 
-    /// Set W of a common node; 1/mass, or 1/inertia of a rotation.
+    /// Set W of a node; 1/mass, or 1/inertia of the rotation of a rigid body.
     void
-    set_common(const unsigned int number, const dealii::SymmetricTensor<2, 3> &mobility)
+    set(const unsigned int number, const dealii::SymmetricTensor<2, 3> &mobility)
     {
       W[number] = mobility;
     }
@@ -95,6 +95,11 @@ namespace akmon
       const double w_n = normal * moved;
       return w_n > 0. && (moved - w_n * normal).norm() <= 1e-14 * w_n;
     }
+
+    /// Whether a pair's relative motion answers to a force alike in all directions, at least in
+    /// those its nodes can move in, so that A_ii is a multiple of the identity there.
+    bool
+    moves_alike(const ContactPair &pair) const;
 
     /// d . A_ii d of a pair along a unit direction d, for m* = m times @p mass_factor;
     /// length/force.

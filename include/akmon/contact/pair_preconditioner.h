@@ -167,7 +167,7 @@ namespace akmon
     const Delassus *delassus              = nullptr;
     const Mobility *mobility              = nullptr;
     double mass_factor                    = 1.;
-    std::vector<unsigned int> closed; ///< numbers of the pairs in the groups
+    std::vector<unsigned int> closed, now_closed; ///< numbers of the pairs in the groups
     std::vector<std::unique_ptr<Group>> groups;
     std::vector<Entry> entries;     ///< of the group in work, by node and row
     MatrixFactor::Entries triplets; ///< of the group in work

@@ -83,7 +83,7 @@ namespace akmon
       faces.resize(n);
       for (Vector *const v : {&r, &direction, &image, &remainder})
         v->resize(n);
-      problem.set_reference(data->start_is_reference ? t : Vector(n));
+      data->start_is_reference ? problem.set_reference(t) : problem.clear_reference();
       double residual = solve_with(data->compliance, 4, Effort::usual, t);
       if (residual > data->sufficient && is_allowed())
         {

@@ -72,7 +72,6 @@ namespace akmon
     build_candidates(const ContactNodes &nodes,
                      const NodalVector &positions,
                      const ContactNodes::Field &x,
-                     const BodyMotions &motions,
                      const double moved);
 
     /// Append the bodies of slaves and of their candidates.
@@ -134,7 +133,16 @@ namespace akmon
       double stiffness;             ///< mean of its faces' K A^2/V; force/length
       unsigned int first_face;      ///< in slave_face_list
       unsigned int first_candidate; ///< in candidates
-      unsigned int first_neighbour; ///< in neighbours
+      unsigned int surroundings;    ///< number of them
+    };
+
+    // What slaves of a body have around them that have candidates of the same bodies.
+    struct Surroundings
+    {
+      unsigned int body;
+      std::vector<unsigned int> neighbours; ///< bodies, sorted
+      double increment = 0.;                ///< the largest of a node in this step; length
+      double travelled = 0.; ///< how far all may have come closer since the last build; length
     };
 
     struct FaceMessage
@@ -199,8 +207,8 @@ namespace akmon
       furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
 
-    // What earlier searches have found out about a slave. Distances are less what is travelled
-    // around it.
+    // What earlier searches have found out about a slave. Distances are less what is travelled in
+    // its surroundings.
     struct Memory
     {
       unsigned int face      = dealii::numbers::invalid_unsigned_int; ///< the last partner's
@@ -231,13 +239,13 @@ namespace akmon
     void
     collect_faces_at_nodes(const unsigned int n_nodes);
     void
-    shift_distances(const BodyMotions &motions, const double times);
+    settle_distances(const double moved);
     void
     find_last_faces();
     void
-    collect_neighbours_of(const unsigned int slave);
-    BodyMotions::Motion
-    motion_around(const unsigned int slave, const BodyMotions &motions) const;
+    collect_surroundings();
+    void
+    advance(const BodyMotions &motions);
     void
     find_pairs_of(const ContactNodes::Field &x,
                   const unsigned int slave,
@@ -302,8 +310,9 @@ namespace akmon
     std::vector<unsigned int> slave_face_list, candidates;
     std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
     std::vector<Memory> memories;               ///< by slave
-    std::vector<unsigned int> neighbours;       ///< of slaves: the bodies of their candidates
-    std::vector<FaceMessage> fetched;           ///< sorted by id
+    std::vector<double> candidates_clear_of;    ///< as in the memories
+    std::vector<Surroundings> surroundings;
+    std::vector<FaceMessage> fetched;                       ///< sorted by id
     std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
     std::vector<MasterFace> masters;                        ///< in the same order
     std::vector<FaceShape> shapes; ///< of the candidate faces, in the same numbers
