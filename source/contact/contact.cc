@@ -132,7 +132,7 @@ namespace akmon
         obstacle_searches[i].find_pairs(nodes, x, first, reach, travelled, pairs);
         for (const bool reversed : {false, true})
           {
-            for (const auto &touch : rigid_touches)
+            for (auto &touch : rigid_touches)
               if (touch.get_interface() == contacts.size() + i)
                 touch.find_pairs(nodes, rigid_nodes, reversed, reach, pairs);
             if (!reversed && !feature_searches.empty())

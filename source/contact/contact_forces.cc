@@ -78,11 +78,7 @@ namespace akmon
     set_target_gaps(state);
     if (solver.type == ContactSolver::Type::coupled)
       {
-        std::vector<double> friction;
-        friction.reserve(pairs.size());
-        for (const auto &pair : pairs)
-          friction.push_back(friction_coefficient(pair, state));
-        coupled->begin_step(pairs, dx_free, friction, effective_mass_factor);
+        coupled->begin_step(pairs, dx_free, friction_of_pairs(state), effective_mass_factor);
         if (!coupled->has_friction())
           solve_coupled(state);
         return;
@@ -160,6 +156,17 @@ namespace akmon
     if (friction.static_coefficient == friction.kinetic_coefficient)
       return friction.static_coefficient;
     return friction.coefficient(pair.tangential_part(pair.relative(dx)).norm() / state.dt);
+  }
+
+
+  std::vector<double>
+  Contact::friction_of_pairs(const NodalState &state) const
+  {
+    std::vector<double> friction;
+    friction.reserve(pairs.size());
+    for (const auto &pair : pairs)
+      friction.push_back(friction_coefficient(pair, state));
+    return friction;
   }
 
 

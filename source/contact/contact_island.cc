@@ -109,6 +109,8 @@ namespace akmon
     problem.start_is_reference = true; // of the next gaps of the same step
     if (!result.converged && delassus.matrix().size() > 0)
       start_elsewhere(parameters.limit, newton);
+    if (!result.converged && problem.rubs() && largest_overlap() > problem.sufficient)
+      let_slip(parameters.limit, newton);
     if (!preconditioner.is_old())
       iterations_when_new = result.n_applications;
     else if (result.n_applications > iterations_when_new + patience)
@@ -153,5 +155,35 @@ namespace akmon
         result = failed;
       }
     result.n_applications = n_applications;
+  }
+
+
+  // By which gaps are less than they should be, over the size of the pair.
+  double
+  ContactIsland::largest_overlap()
+  {
+    auto w = tau;
+    delassus.apply(tau, w);
+    double largest = 0.;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      largest = std::max(largest, -problem.weights[i] * (w[i][0] + problem.b[i][0]));
+    return largest;
+  }
+
+
+  // Bodies that are wedged may have no forces with any friction that could be found: they slip
+  // freely in this step.
+  void
+  ContactIsland::let_slip(const unsigned int limit, Newton &newton)
+  {
+    const unsigned int n_applications = result.n_applications;
+    const auto friction               = problem.friction;
+    problem.friction.assign(friction.size(), 0.);
+    problem.limit = limit;
+    tau.assign(tau.size(), {});
+    result           = newton.solve(problem, delassus, preconditioner, tau, faces);
+    problem.friction = friction;
+    result.n_applications += n_applications;
+    result.converged = false; // with friction
   }
 } // namespace akmon

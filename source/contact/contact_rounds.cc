@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 // The coupled solution in rounds: what is not linear in the gaps that a step leads to.
 
@@ -14,21 +15,74 @@ namespace akmon
 {
   using namespace dealii;
 
-  // Forces, and again while the gaps that they lead to are not what the linear constraints promise.
+  // Forces, and again while the gaps that they lead to are not what the linear constraints promise,
+  // or rigid bodies touch where there is no pair.
   void
   Contact::solve_coupled(const NodalState &state)
   {
     constexpr unsigned int most_rounds = 40;
+    constexpr double touch_anew        = std::numeric_limits<double>::infinity();
 
     coupled->solve(dx_free);
+    if (searches.empty() && bodies.empty())
+      return;
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
-        const double excess = follow_partners(state, round == 1);
-        if (Utilities::MPI::max(excess, discretization.communicator()) <= 1.)
+        const auto poses    = reach();
+        const auto joining  = follow_touches(poses);
+        const double here   = std::max(follow_partners(state, poses, round),
+                                     joining.empty() ? 0. : touch_anew);
+        const double excess = Utilities::MPI::max(here, discretization.communicator());
+        if (excess <= 1.)
           return;
+        if (!joining.empty())
+          {
+            pairs.insert(pairs.end(), joining.begin(), joining.end());
+            std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
+              return a.key() < b.key();
+            });
+          }
         set_target_gaps(state);
+        if (excess == touch_anew)
+          coupled->take_up_anew(pairs, dx_free, friction_of_pairs(state));
         coupled->solve(dx_free);
       }
+  }
+
+
+  // Take the increments that the last solution leads to, and the nodes there; where the bodies are.
+  std::vector<Pose>
+  Contact::reach()
+  {
+    const auto &dx_contact = coupled->increments();
+    x_reached              = x;
+    dx_reached             = dx_free;
+    for (unsigned int i = 0; i < nodes.size(); ++i)
+      {
+        dx_reached.add(i, dx_contact[i]);
+        x_reached.add(i, dx_reached[i]);
+      }
+    return reached_poses(&dx_contact);
+  }
+
+
+  // Pairs for points where rigid bodies are in each other without one.
+  std::vector<ContactPair>
+  Contact::follow_touches(const std::vector<Pose> &poses)
+  {
+    if (rigid_touches.empty())
+      return {};
+    std::vector<std::vector<ContactPair *>> of_touch(rigid_touches.size());
+    for (auto &pair : pairs)
+      if (pair.is_touch())
+        of_touch[pair.search].push_back(&pair);
+    std::vector<ContactPair> joining;
+    if (Utilities::MPI::this_mpi_process(discretization.communicator()) == 0)
+      for (unsigned int i = 0; i < rigid_touches.size(); ++i)
+        for (const auto &uncovered : rigid_touches[i].follow(poses, of_touch[i]))
+          joining.push_back(
+            rigid_touches[i].join(uncovered, poses, nodes, rigid_nodes, dx_reached));
+    return joining;
   }
 
 
@@ -64,10 +118,11 @@ namespace akmon
         const unsigned int body = pair.interface - contacts.size();
         return feature_searches[body].gap_at(x_reached, poses[body], pair, gap);
       }
-    if (pair.slave == numbers::invalid_unsigned_int)
-      return std::any_of(rigid_touches.begin(), rigid_touches.end(), [&](const auto &touch) {
-        return touch.gap_at(pair, poses, gap);
-      });
+    if (pair.is_touch())
+      {
+        gap = pair.reached_gap; // of follow_touches()
+        return true;
+      }
     const unsigned int body = pair.interface - contacts.size();
     gap                     = obstacle_gap(*bodies[body].parameters().shape,
                        poses[body],
@@ -102,24 +157,18 @@ namespace akmon
   // close, or for those that the last solution has moved otherwise than the one before; returns how
   // far it is from what the solution counted on, over what is allowed.
   double
-  Contact::follow_partners(const NodalState &state, const bool all_pairs)
+  Contact::follow_partners(const NodalState &state,
+                           const std::vector<Pose> &poses,
+                           const unsigned int round)
   {
     // Of the cell size. Rigid shapes are exact: so are gaps from them; normals of edges turn fast.
-    constexpr double of_faces = 1e-7, of_features = 1e-8, of_edges = 1e-10, of_rigid = 1e-12;
-    constexpr double least_of_features = 0.1;
+    constexpr double of_faces = 1e-7, of_features = 1e-8, of_edges = 1e-10, of_rigid = 1e-12,
+                     of_touches        = 1e-11;
+    constexpr double least_of_features = 0.1; // and of rims
+    constexpr unsigned int many_rounds = 20; // rims that closed and opened in turns only close then
 
-    if (searches.empty() && bodies.empty())
-      return 0.;
     const auto &dx_contact = coupled->increments();
-    x_reached              = x;
-    dx_reached             = dx_free;
-    for (unsigned int i = 0; i < nodes.size(); ++i)
-      {
-        dx_reached.add(i, dx_contact[i]);
-        x_reached.add(i, dx_reached[i]);
-      }
-    const auto poses      = reached_poses(&dx_contact);
-    const auto moves_anew = [&](const ContactPair &pair) {
+    const auto moves_anew  = [&](const ContactPair &pair) {
       return !pair.settled || pair.wanders ||
              std::any_of(pair.nodes.begin(),
                          pair.nodes.begin() + pair.n_nodes,
@@ -129,12 +178,14 @@ namespace akmon
     double largest = 0.;
     for (ContactPair *const pair : coupled->participants())
       {
-        if (!all_pairs && !moves_anew(*pair))
+        if (round > 1 && !moves_anew(*pair))
           continue;
         const auto motion = pair->relative(dx_reached);
         // Whatever is beyond is another partner. Bulges may be highest far from where they were.
         const double bound   = std::max(0.5 * motion.norm(),
-                                      pair->of_features ? least_of_features * pair->size : 0.);
+                                      pair->of_features || pair->is_touch() ?
+                                          least_of_features * pair->size :
+                                          0.);
         const double linear  = pair->gap + pair->normal * motion;
         const double allowed = std::min(0., pair->gap + release(*pair, state));
         double reached;
@@ -144,13 +195,19 @@ namespace akmon
         const double curvature = std::clamp(reached - linear, -bound, bound);
         const double tolerance = pair->of_features                  ? of_features :
                                  pair->of_edges                     ? of_edges :
+                                 pair->is_touch()                   ? of_touches :
                                  pair->interface >= contacts.size() ? of_rigid :
                                                                       of_faces;
-        const double excess    = std::abs(curvature - pair->curvature) / (pair->size * tolerance);
+        const bool only_closes = pair->is_touch() && round > many_rounds;
+        const double change    = curvature - pair->curvature;
+        const double excess    = (only_closes ? std::max(0., -change) : std::abs(change)) /
+                              (pair->size * tolerance);
         if (pair->normal_force > 0. || linear + curvature < allowed)
           largest = std::max(largest, excess);
         pair->settled = excess <= 1.;
-        if (!pair->settled)
+        if (!pair->settled && only_closes)
+          pair->curvature = curvature;
+        else if (!pair->settled)
           count_on(*pair, curvature);
       }
     dx_followed = dx_contact;

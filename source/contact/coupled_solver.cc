@@ -46,7 +46,7 @@ namespace akmon
 
 
   // Pairs that the step could close: the contact forces move a node by no more than a few times
-  // what the fastest pair would do freely.
+  // what the fastest pair would do freely. What rigid bodies' rims touch may be elsewhere then.
   void
   CoupledSolver::choose_participants(std::vector<ContactPair> &pairs,
                                      const ContactNodes::Field &dx_free,
@@ -60,7 +60,7 @@ namespace akmon
     friction_of_all.clear();
     active.clear();
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (pairs[i].target_gap <= margin)
+      if (pairs[i].target_gap <= margin || pairs[i].is_touch())
         {
           all.push_back(&pairs[i]);
           friction_of_all.push_back(friction_of_pairs[i]);
@@ -83,13 +83,22 @@ namespace akmon
     n_applications = n_coupled = last_residual = 0.;
     all_converged                              = true;
     mass_factor                                = effective_mass_factor;
-    choose_participants(pairs, dx_free, friction_of_pairs);
-    response.reinit(all, mass_factor);
+    take_up_anew(pairs, dx_free, friction_of_pairs);
     const bool friction_here = std::any_of(friction_of_all.begin(),
                                            friction_of_all.end(),
                                            [](const double mu) { return mu > 0.; });
     friction_somewhere = Utilities::MPI::max(int(friction_here), nodes.get_communicator()) > 0;
-    has_begun          = false;
+  }
+
+
+  void
+  CoupledSolver::take_up_anew(std::vector<ContactPair> &pairs,
+                              const ContactNodes::Field &dx_free,
+                              const std::vector<double> &friction_of_pairs)
+  {
+    choose_participants(pairs, dx_free, friction_of_pairs);
+    response.reinit(all, mass_factor);
+    has_begun = false;
     for (auto &[key, island] : islands)
       island->of_this_step = false;
   }

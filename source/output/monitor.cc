@@ -62,7 +62,7 @@ namespace akmon
         history.add_column(name + ".force_" + axis);
     for (const auto &body : watched.rigid_bodies)
       if (body.moves())
-        for (const char *const quantity : {".displacement_", ".velocity_", ".spin_"})
+        for (const char *const quantity : {".displacement_", ".rotation_", ".velocity_", ".spin_"})
           for (const char *const axis : {"x", "y", "z"})
             history.add_column(body.parameters().name + quantity + axis);
     history.add_columns(probes.columns());
@@ -287,7 +287,8 @@ namespace akmon
     append(sums);
     for (const auto &body : watched.rigid_bodies)
       if (body.moves())
-        for (const auto &value : {body.displacement(), body.velocity(), body.spin()})
+        for (const auto &value :
+             {body.displacement(), body.rotation(), body.velocity(), body.spin()})
           append({value[0], value[1], value[2]});
     append(probes.values(watched.state));
     history.write_row(row);

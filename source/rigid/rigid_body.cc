@@ -180,6 +180,13 @@ namespace akmon
 
 
   Tensor<1, 3>
+  RigidBody::rotation() const
+  {
+    return (pose().orientation * obstacle.start.orientation.inverse()).rotation_vector();
+  }
+
+
+  Tensor<1, 3>
   RigidBody::velocity() const
   {
     return 0.5 * (increment_before().centre / dt + increment_after().centre / dt_next);

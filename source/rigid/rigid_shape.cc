@@ -53,7 +53,10 @@ namespace akmon
       for (std::size_t i = 0; i < n; ++i)
         if (q[i] > 0.)
           normal += (q[i] / size) * directions[i];
-      return {size - radius, normal};
+      const bool on_edge = std::count_if(q.begin(), q.end(), [](const double component) {
+                             return component > 0.;
+                           }) > 1;
+      return {size - radius, normal, on_edge};
     }
 
 
@@ -119,7 +122,7 @@ namespace akmon
   BallShape::closest(const Tensor<1, 3> &x) const
   {
     const double r = x.norm();
-    return {r - R, r > 0. ? x / r : unit(2)};
+    return {r - R, r > 0. ? x / r : unit(2), true};
   }
 
 
@@ -234,7 +237,7 @@ namespace akmon
     const Meridian meridian(x);
     const Tensor<1, 3> from_circle = (meridian.r - ring) * meridian.outward + x[2] * unit(2);
     const double r                 = from_circle.norm();
-    return {r - tube, r > 0. ? from_circle / r : unit(2)};
+    return {r - tube, r > 0. ? from_circle / r : unit(2), true};
   }
 
 

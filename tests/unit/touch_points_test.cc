@@ -93,7 +93,8 @@ namespace
                               Vector({2.5, 0., 0.3}),
                               Orientation::about(Vector({0.5 * dealii::numbers::PI, 0., 0.})));
     EXPECT_NEAR(points[0].other.distance, 0.5, 1e-13);
-    EXPECT_NEAR((points[0].x - Vector({1., 0., 0.3})).norm(), 0., 1e-10);
+    const auto place = points[0].x - points[0].radius * points[0].other.normal;
+    EXPECT_NEAR((place - Vector({1., 0., 0.3})).norm(), 0., 1e-10);
   }
 
 
@@ -134,5 +135,64 @@ namespace
     EXPECT_NEAR(points[0].other.distance, 0., 1e-14);
     EXPECT_NEAR((points[0].x - Vector({1.2, 1.6, 0.})).norm(), 0., 1e-9);
     EXPECT_TRUE(touch(TorusShape(2., 0.5), BallShape(1.), Vector({9., 0., 0.}), {}, 1.).empty());
+  }
+
+
+  // A bar across a ring touches it at two places; the ring tells them, not the bar's axis.
+  TEST(TouchPoints, BarAcrossRing)
+  {
+    const TorusShape ring(2., 0.25);
+    const RoundBarShape bar(0.5, 10., 0.);
+    const Vector place({0., 1., 0.7});
+    const auto turn   = Orientation::about(Vector({0., 0.5 * dealii::numbers::PI, 0.}));
+    const auto points = touch(ring, bar, place, turn);
+    ASSERT_GE(points.size(), 2u);
+    for (unsigned int i = 0; i < 2; ++i)
+      {
+        // Where the circle is closest to the line y = 1, z = 0.7.
+        EXPECT_NEAR(points[i].other.distance, 0.7 - 0.75, 1e-13);
+        EXPECT_NEAR(points[i].x[1], 1., 1e-9);
+        EXPECT_NEAR(std::abs(points[i].x[0]), std::sqrt(3.), 1e-9);
+        EXPECT_TRUE(points[i].least);
+      }
+    EXPECT_LT(points[0].x[0] * points[1].x[0], 0.);
+    const auto of_bar = touch(bar, ring, turn.inverse().matrix() * -place, turn.inverse(), 1.);
+    EXPECT_TRUE(of_bar.empty());
+  }
+
+
+  // Edges that cross and touch, up to rounding to this side or that: the normal is across both.
+  TEST(TouchPoints, NormalsOfEdgesThatTouch)
+  {
+    const BlockShape cube(Vector({2., 2., 2.}), 0.);
+    const double q = 0.25 * dealii::numbers::PI, s = std::sqrt(2.);
+    const auto lower = Orientation::about(Vector({q, 0., 0.}));
+    const auto upper = Orientation::about(Vector({0., q, 0.}));
+    for (const double gap : {-1e-14, 0., 1e-14})
+      {
+        const auto points = touch(cube,
+                                  cube,
+                                  lower.inverse().matrix() * Vector({0.1, 0.2, 2. * s + gap}),
+                                  lower.inverse() * upper);
+        EXPECT_NEAR(points[0].other.distance, gap, 3e-15);
+        const auto normal = lower.matrix() * points[0].other.normal;
+        EXPECT_NEAR((normal - Vector({0., 0., -1.})).norm(), 0., 1e-8);
+      }
+  }
+
+
+  // An edge across a bar is as close as it gets in its middle, at a quarter or anywhere.
+  TEST(TouchPoints, EdgeAcrossBar)
+  {
+    const BlockShape block(Vector({1., 1., 4.}), 0.);
+    const RoundBarShape bar(0.5, 10., 0.);
+    const auto turn = Orientation::about(Vector({0., 0.5 * dealii::numbers::PI, 0.}));
+    for (const double z : {0., -1., 0.5, 1. / 3.})
+      {
+        const auto points = touch(block, bar, Vector({5.2, 1.1, z}), turn, 0.5);
+        ASSERT_EQ(points.size(), 1u) << z;
+        EXPECT_NEAR(points[0].other.distance, 0.1, 1e-13);
+        EXPECT_NEAR((points[0].x - Vector({0.5, 0.5, z})).norm(), 0., 1e-8);
+      }
   }
 } // namespace

@@ -9,6 +9,7 @@
 #include <akmon/contact/obstacle_search.h>
 #include <akmon/contact/pair.h>
 #include <akmon/contact/penalty.h>
+#include <akmon/contact/rigid_touch.h>
 #include <akmon/contact/surface_search.h>
 #include <akmon/model/essential_conditions.h>
 #include <akmon/model/nodal_state.h>
@@ -242,8 +243,16 @@ namespace akmon
     set_target_gaps(const NodalState &state);
     void
     solve_coupled(const NodalState &state);
+    std::vector<double>
+    friction_of_pairs(const NodalState &state) const;
+    std::vector<Pose>
+    reach();
+    std::vector<ContactPair>
+    follow_touches(const std::vector<Pose> &poses);
     double
-    follow_partners(const NodalState &state, const bool all_pairs);
+    follow_partners(const NodalState &state,
+                    const std::vector<Pose> &poses,
+                    const unsigned int round);
     static void
     count_on(ContactPair &pair, const double curvature);
     std::vector<Pose>

@@ -82,6 +82,10 @@ namespace akmon
                  const ContactNodes::Id first_common_id);
     void
     start_elsewhere(const unsigned int limit, Newton &newton);
+    double
+    largest_overlap();
+    void
+    let_slip(const unsigned int limit, Newton &newton);
 
     std::vector<ContactPair> pairs; ///< their nodes are numbers of the island
     std::vector<ContactNodes::Id> ids;

@@ -41,6 +41,12 @@ namespace akmon
                const std::vector<double> &friction,
                const double effective_mass_factor);
 
+    /// Take up the pairs of the step again after others have joined them (collective).
+    void
+    take_up_anew(std::vector<ContactPair> &pairs,
+                 const ContactNodes::Field &dx_free,
+                 const std::vector<double> &friction);
+
     /// Whether any pair of the step may carry friction, the same on all ranks.
     bool
     has_friction() const

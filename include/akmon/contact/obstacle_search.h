@@ -4,7 +4,6 @@
 #include <akmon/contact/pair.h>
 #include <akmon/rigid/rigid_body.h>
 
-#include <utility>
 #include <vector>
 
 namespace akmon
@@ -77,55 +76,8 @@ namespace akmon
   };
 
 
-  /// Finds where two rigid bodies touch. Rank 0 has the pairs.
-  class RigidTouch
-  {
-  public:
-    /**
-     * @param pair       numbers of the bodies: the interface is the first one's
-     * @param interface  number for its pairs
-     * @param number     of this touch, for the names of its pairs
-     */
-    RigidTouch(const std::vector<RigidBody> &bodies,
-               const std::pair<unsigned int, unsigned int> &pair,
-               const unsigned int interface,
-               const unsigned int number);
-
-    /// Append pairs of the first body's features with the second body, or the other way round.
-    void
-    find_pairs(const ContactNodes &nodes,
-               const RigidNodes &rigid_nodes,
-               const bool reversed,
-               const double reach,
-               std::vector<ContactPair> &pairs) const;
-
-    /// The gap of a pair's feature with the bodies in other poses; false if there is none.
-    bool
-    gap_at(const ContactPair &pair, const std::vector<Pose> &poses, double &gap) const;
-
-    unsigned int
-    get_interface() const
-    {
-      return interface;
-    }
-
-  private:
-    std::vector<TouchPoint>
-    touch_points(const bool reversed,
-                 const Pose &of_first,
-                 const Pose &of_second,
-                 const double within) const;
-
-    const std::vector<RigidBody> &bodies;
-    const unsigned int first, second;
-    const unsigned int interface, number;
-    double size; ///< of the smaller one; length
-  };
-
-
-  /// The distance of x from a body in some pose, with its normal in space.
-  SurfacePoint
-  closest_in_space(const RigidShape &shape, const Pose &pose, const dealii::Tensor<1, 3> &x);
+  // Slaves this close, over their size, always get their pairs: bodies may be about to start.
+  inline constexpr double always_near = 0.1;
 
   /**
    * The gap of a node at @p x from the obstacle in a pose: of the closest point, unless it looks
@@ -137,4 +89,8 @@ namespace akmon
                const Pose &pose,
                const ContactPair &pair,
                const dealii::Tensor<1, 3> &x);
+
+  /// Remember the plane a pair was found with at @p x, in the frame of its rigid partner.
+  void
+  set_plane(ContactPair &pair, const Pose &pose, const dealii::Tensor<1, 3> &x);
 } // namespace akmon

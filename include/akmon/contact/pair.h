@@ -30,7 +30,8 @@ namespace akmon
    * exactly.
    *
    * Or a point of a sharp corner or edge of a rigid body and one of a surface (FeatureSearch), the
-   * body being the slave.
+   * body being the slave. Or points of two rigid bodies (RigidTouch): of a feature of the slave,
+   * whose number is in the id and in the slot that of the point among those of the feature.
    *
    * A rigid body that moves has two contact nodes, one with its centre's motion u_c and one with
    * its rotation theta: it moves by u_c + theta x r at the slave's place r from the centre. The
@@ -70,7 +71,8 @@ namespace akmon
     dealii::Tensor<1, 3> plane_normal; ///< of the partner if rigid, in its frame
     double plane_offset = 0.;          ///< the plane is plane_normal . X = plane_offset; length
 
-    double curvature = 0.;               ///< second-order part of the gap the step reaches; length
+    double reached_gap = 0.;             ///< of rigid bodies, where the step leads; length
+    double curvature   = 0.;             ///< second-order part of the gap the step reaches; length
     double change = 0., correction = 0.; ///< what it lacked last in this step, and got; length
     bool settled        = false;         ///< it lacked nothing that counts
     bool wanders        = false;         ///< the step leads to another face
@@ -90,6 +92,28 @@ namespace akmon
     key() const
     {
       return std::make_tuple(interface, of_edges, reversed, slave_id, slot, others);
+    }
+
+    /// Whether it is of two rigid bodies (RigidTouch).
+    bool
+    is_touch() const
+    {
+      return slave == dealii::numbers::invalid_unsigned_int && !of_edges && !of_features;
+    }
+
+    void
+    add_node(const unsigned int node, const double weight)
+    {
+      nodes[n_nodes]     = node;
+      weights[n_nodes++] = weight;
+    }
+
+    /// @param radius  r; length
+    void
+    add_rotation(const unsigned int node, const double weight, const dealii::Tensor<1, 3> &radius)
+    {
+      radii[n_rotations++] = radius;
+      add_node(node, weight);
     }
 
     /// Number of nodes that are no rotations.

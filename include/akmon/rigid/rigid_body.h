@@ -98,8 +98,12 @@ namespace akmon
     dealii::SymmetricTensor<2, 3>
     rotation_mobility() const;
 
+    /// Of the centre since the start; length.
     dealii::Tensor<1, 3>
     displacement() const;
+    /// Since the start, about the vector by its length; radians, at most pi.
+    dealii::Tensor<1, 3>
+    rotation() const;
     dealii::Tensor<1, 3>
     velocity() const;
     dealii::Tensor<1, 3>

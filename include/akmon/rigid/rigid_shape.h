@@ -18,23 +18,40 @@ namespace akmon
   {
     double distance;             ///< negative inside; length
     dealii::Tensor<1, 3> normal; ///< outward unit normal, the gradient of the distance
+    bool on_feature = false;     ///< whether touch_points() of the shape looks at what is there
   };
+
+
+  /// Signed distance to another shape, in the first one's frame.
+  using DistanceField = std::function<SurfacePoint(const dealii::Tensor<1, 3> &)>;
 
 
   /**
    * A point of a rigid shape's skeleton that may touch something: the surface is the skeleton blown
-   * up by a radius. Features are corners, edges and rims; their numbers stay while the shape moves.
+   * up by a radius. Features are corners, edges, rims and axes; their numbers stay while the shape
+   * moves.
+   *
+   * On the surface of the other shape distances along sharp edges have no normal that could be told
+   * from rounding. So what is sharp looks at the other from a little inside.
    */
   struct TouchPoint
   {
     unsigned int feature;
-    dealii::Tensor<1, 3> x; ///< on the skeleton, in the shape's frame; length
-    double radius;          ///< length
-    SurfacePoint other;     ///< the other shape from x
-  };
+    unsigned int number;       ///< of the point among those of its feature
+    bool least;                ///< whether no other point of the feature around it is closer
+    dealii::Tensor<1, 3> x;    ///< on the skeleton, in the shape's frame; length
+    dealii::Tensor<1, 3> from; ///< where it looks from, seen from x; zero if it is round; length
+    double radius;             ///< length
+    SurfacePoint other;        ///< the other shape from the surface
 
-  /// Signed distance to another shape, in the first one's frame.
-  using DistanceField = std::function<SurfacePoint(const dealii::Tensor<1, 3> &)>;
+    /// Look at the other shape.
+    void
+    look(const DistanceField &field)
+    {
+      other = field(x + from);
+      other.distance -= radius + other.normal * from;
+    }
+  };
 
 
   /**
@@ -69,7 +86,9 @@ namespace akmon
 
     /**
      * Append the points that come closest to another shape, feature by feature, if within a
-     * distance. Faces have none: what lies between faces is told by the features of the other.
+     * distance: all that do so locally, and of a rim others a quarter and half a turn away, for
+     * what stands on it. Faces have none: what lies between faces is told by the features of the
+     * other.
      */
     virtual void
     touch_points(const DistanceField &other,

@@ -85,6 +85,16 @@ namespace akmon
       return (2. / w) * v;
     }
 
+    /// The axis of the rotation times its angle, at most pi; radians.
+    dealii::Tensor<1, 3>
+    rotation_vector() const
+    {
+      const double size = v.norm();
+      if (size == 0.)
+        return {};
+      return (2. * std::atan2(size, std::abs(w)) / (w < 0. ? -size : size)) * v;
+    }
+
     /// The rotation matrix.
     dealii::Tensor<2, 3>
     matrix() const
