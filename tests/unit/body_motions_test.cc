@@ -66,16 +66,25 @@ namespace
   }
 
 
-  // The mean motion is (3, 0, 4 + 2/n).
+  // No faster than both fastest nodes together; when the other body flies along, no faster than the
+  // fastest node is against it.
   TEST(BodyMotions, bound_how_far_surfaces_approach_each_other)
   {
     Flight flight;
-    const double within   = 2. * (1. - 1. / flight.n_nodes);
-    const double of_means = std::hypot(3., 4. + 2. / flight.n_nodes);
-    EXPECT_NEAR(flight.motions.approach(0, 1), of_means + within, 1e-13);
-    EXPECT_NEAR(flight.motions.approach(0, 0), 2. * within, 1e-14);
+    EXPECT_NEAR(flight.motions.approach(0, 1), std::sqrt(45.), 1e-13);
+    EXPECT_NEAR(flight.motions.approach(0, 0), 4. * (1. - 1. / flight.n_nodes), 1e-14);
     EXPECT_EQ(flight.motions.approach(1, 1), 0.);
-    EXPECT_GE(flight.motions.largest_approach(), of_means + within);
+    EXPECT_GE(flight.motions.largest_approach(), std::sqrt(45.) - 1e-13);
+    EXPECT_LE(flight.motions.largest_approach(), 2. * std::sqrt(45.));
+    auto &state = flight.boxes.state;
+    for (unsigned int node = 0; node < flight.boxes.discretization.n_owned_nodes; ++node)
+      if (flight.boxes.discretization.body_of_node[node] == 1)
+        for (unsigned int d = 0; d < 3; ++d)
+          state.dx[3 * node + d] = state.dx_next[3 * node + d] = d == 0 ? 3. : d == 2 ? 4. : 0.;
+    flight.motions.measure(state);
+    EXPECT_NEAR(flight.motions.approach(0, 1), 2., 1e-13);
+    EXPECT_GE(flight.motions.largest_approach(), 2. - 1e-13);
+    EXPECT_LE(flight.motions.largest_approach(), 4.);
   }
 
 
