@@ -228,6 +228,7 @@ namespace akmon
           found.emplace_back(0., 0.);
         std::sort(found.begin(), found.end());
         std::vector<double> angles;
+        angles.reserve(found.size());
         for (const auto &[distance, angle] : found)
           angles.push_back(angle);
         return angles;
