@@ -74,6 +74,7 @@ namespace akmon
     const bool has_features      = std::any_of(feature_searches.begin(),
                                           feature_searches.end(),
                                           [](const auto &search) { return search.exists(); });
+    // Sharp features of rigid bodies come on their own; without any, obstacles have no candidates.
     moved += has_features ?
                std::max(motions.largest_approach(), motions.largest() + of_rigid_bodies) :
                motions.largest_approach();

@@ -86,17 +86,17 @@ namespace akmon
                        const double tolerance,
                        Newton &newton)
   {
+    // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
+    // for gaps (SemismoothNewton).
+    constexpr double compliance     = 1e-7;
+    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
+
     problem.tolerance  = tolerance;
     problem.sufficient = std::max(parameters.tolerance, tolerance);
     // Where no friction was found in this step none would be now: gaps are closed at once.
     problem.limit = result.converged || !problem.rubs() ? parameters.limit : 1;
     for (std::size_t i = 0; i < pairs.size(); ++i)
       pairs[i].target_gap = members[i]->pair.target_gap;
-    // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
-    // for gaps (SemismoothNewton).
-    constexpr double compliance     = 1e-7;
-    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
-
     const auto &s      = delassus.scale();
     problem.compliance = compliance;
     problem.b.resize(pairs.size());

@@ -303,8 +303,8 @@ namespace akmon
     const std::unique_ptr<Bonds> bonds;
     const std::unique_ptr<CoupledSolver> coupled;
     BodyMotions motions;
-    double moved             = 0.; ///< bound of relative motion since candidates were built
-    double travelled         = 0.; ///< the same since the beginning
+    double moved             = 0.; ///< how far surfaces may have approached since the last build
+    double travelled         = 0.; ///< nodes may have moved against obstacles since the beginning
     double seconds_of_search = 0.;
     bool prepared            = false;
 
