@@ -52,7 +52,7 @@ namespace akmon
 
 
     std::string
-    in_words(const std::string &pattern)
+    meaning_of(const std::string &pattern)
     {
       std::string words     = allowed_values(pattern);
       const std::string cut = "allowed are ";
@@ -76,7 +76,7 @@ namespace akmon
       const auto default_value = entry.get<std::string>("default_value");
       out << "| `" << key << "` | "
           << (default_value.empty() ? "" : "`" + replace_all(default_value, "|", "\\|") + "`")
-          << " | " << cell(in_words(entry.get<std::string>("pattern_description"))) << " | "
+          << " | " << cell(meaning_of(entry.get<std::string>("pattern_description"))) << " | "
           << cell(entry.get<std::string>("documentation")) << " |\n";
     }
 

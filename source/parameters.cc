@@ -11,7 +11,7 @@ namespace akmon
   {
     // "numbers from 0 to 1", "box, cylinder, sphere", "3 numbers separated by commas"
     std::string
-    in_words(const std::string &pattern)
+    pattern_in_words(const std::string &pattern)
     {
       std::smatch match;
       if (std::regex_match(pattern,
@@ -38,7 +38,7 @@ namespace akmon
       if (std::regex_match(pattern,
                            match,
                            std::regex("\\[List of <(.*)> of length (\\d+)\\.\\.\\.(\\d+) .*\\]")))
-        return (match[2] == match[3] ? match[2].str() + " " : "") + in_words(match[1]) +
+        return (match[2] == match[3] ? match[2].str() + " " : "") + pattern_in_words(match[1]) +
                " separated by commas";
       if (pattern == "[Bool]")
         return "true, false";
@@ -50,7 +50,7 @@ namespace akmon
   std::string
   allowed_values(const std::string &pattern)
   {
-    return "allowed are " + in_words(dealii::Utilities::trim(pattern));
+    return "allowed are " + pattern_in_words(dealii::Utilities::trim(pattern));
   }
 
 

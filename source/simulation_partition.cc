@@ -22,16 +22,16 @@ namespace akmon
 
     const double forces = timer.seconds(stages.forces) -
                           std::exchange(forces_before, timer.seconds(stages.forces));
-    const double search = contact.search_seconds() -
-                          std::exchange(search_before, contact.search_seconds());
-    const auto work     = Utilities::MPI::min_max_avg(forces + search, communicator);
+    const double of_pairs = contact.work_seconds() -
+                            std::exchange(pairs_before, contact.work_seconds());
+    const auto work     = Utilities::MPI::min_max_avg(forces + of_pairs, communicator);
     const double uneven = work.avg > 0. ? work.max / work.avg : 1.;
     const double bound  = parameters.partition.repartition_above;
     if (Utilities::MPI::n_mpi_processes(communicator) == 1 ||
         parameters.time.finished(state.time) || !(uneven >= bound) ||
         (bound > 1. && work.max - work.avg < worth))
       return false;
-    auto extra_work = measure_extra_work(forces, search);
+    auto extra_work = measure_extra_work(forces, of_pairs);
     if (extra_work == continuation.extra_work) // cells alone: they are shared out evenly
       return false;
     continuation.extra_work = std::move(extra_work);
@@ -43,11 +43,11 @@ namespace akmon
   }
 
 
-  // Pairs cost what their search takes, compared with the forces of a cell. They count at a cell
-  // of their slave.
+  // Pairs cost what their search and their forces take, compared with the forces of a cell. They
+  // count at a cell of their slave.
   ExtraWork
   Simulation::measure_extra_work(const double seconds_of_forces,
-                                 const double seconds_of_search) const
+                                 const double seconds_of_pairs) const
   {
     constexpr double most = 1e6; // of a cell's own work, in thousandths
 
@@ -59,7 +59,7 @@ namespace akmon
     for (const auto &[slave, n] : pairs_of)
       n_pairs += n;
     const double n_pairs_of_all = Utilities::MPI::sum(n_pairs, communicator);
-    const double of_pairs       = Utilities::MPI::sum(seconds_of_search, communicator);
+    const double of_pairs       = Utilities::MPI::sum(seconds_of_pairs, communicator);
     const double of_cells       = Utilities::MPI::sum(seconds_of_forces, communicator);
     if (!(n_pairs_of_all > 0.) || !(of_cells > 0.))
       return {};

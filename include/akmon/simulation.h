@@ -113,7 +113,7 @@ namespace akmon
     bool
     wants_repartition();
     ExtraWork
-    measure_extra_work(const double seconds_of_forces, const double seconds_of_search) const;
+    measure_extra_work(const double seconds_of_forces, const double seconds_of_pairs) const;
     void
     leave_evidence();
     void
@@ -159,7 +159,7 @@ namespace akmon
     OutputTick checkpoint_tick;
     SignalWatch::Request requested = SignalWatch::none; ///< in this step, the same on all ranks
     std::chrono::steady_clock::time_point wall_start, last_checkpoint;
-    double forces_before = 0., search_before = 0.; ///< seconds on this rank at the last checkpoint
+    double forces_before = 0., pairs_before = 0.;  ///< seconds on this rank at the last checkpoint
     unsigned long n_cells = 0, first_step = 0;     ///< first_step: where this part of the run began
     double added_mass      = 0.;                   ///< by mass scaling, over the mass there was
     unsigned long n_eroded = 0, n_eroded_here = 0; ///< of all ranks, of this one

@@ -1,18 +1,26 @@
 #include <akmon/contact/bonds.h>
 #include <akmon/contact/contact.h>
+#include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/edge_search.h>
 #include <akmon/contact/feature_search.h>
+#include <akmon/contact/work_time.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 namespace akmon
 {
   using namespace dealii;
+
+  double
+  Contact::work_seconds() const
+  {
+    return seconds_of_work + (coupled ? coupled->work_seconds() : 0.);
+  }
+
 
   // Of rigid bodies at the furthest slave node, over all ranks.
   double
@@ -101,7 +109,7 @@ namespace akmon
     x_reached = x; // as far as is known
     for (unsigned int i = 0; i < nodes.first_common(); ++i)
       x_reached.add(i, dx[i]);
-    const auto begin = std::chrono::steady_clock::now();
+    const WorkTime timing(seconds_of_work);
     for (unsigned int i = 0; i < searches.size(); ++i)
       {
         searches[i].find_pairs(state.x, x, motions, steps, least_reach, pairs);
@@ -116,8 +124,6 @@ namespace akmon
                                  pairs.end(),
                                  [&](const ContactPair &pair) { return bonds->hold(pair); }),
                   pairs.end());
-    seconds_of_search += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin)
-                           .count();
     if (solver.type != ContactSolver::Type::decoupled)
       warm_start();
   }

@@ -46,6 +46,7 @@ namespace akmon
           others.push_back(3 * id + d);
     std::sort(others.begin(), others.end());
     others.erase(std::unique(others.begin(), others.end()), others.end());
+    taken_up.assign(owned.size(), false);
     if (owned_indices.size() == 0)
       {
         // No contact at all; deal.II's ghost exchange divides by the size.
@@ -57,6 +58,9 @@ namespace akmon
     partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned_indices,
                                                                 ghosts,
                                                                 communicator);
+    for (const auto &[first, end] : partitioner->import_indices())
+      for (unsigned int i = first; i < end; ++i)
+        taken_up[i / 3] = true;
   }
 
 

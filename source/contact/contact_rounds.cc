@@ -2,6 +2,7 @@
 #include <akmon/contact/coupled_solver.h>
 #include <akmon/contact/edge_search.h>
 #include <akmon/contact/feature_search.h>
+#include <akmon/contact/work_time.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -167,6 +168,7 @@ namespace akmon
     constexpr double least_of_features = 0.1; // and of rims
     constexpr unsigned int many_rounds = 20; // rims that closed and opened in turns only close then
 
+    const WorkTime timing(seconds_of_work);
     const auto &dx_contact = coupled->increments();
     const auto moves_anew  = [&](const ContactPair &pair) {
       return !pair.settled || pair.wanders ||

@@ -1,14 +1,11 @@
-#include <akmon/contact/bonds.h>
 #include <akmon/contact/coulomb.h>
 #include <akmon/contact/coupled_solver.h>
-#include <akmon/contact/gather.h>
-#include <akmon/contact/united_sets.h>
+#include <akmon/contact/work_time.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace akmon
 {
@@ -113,13 +110,10 @@ namespace akmon
     do
       {
         if (join)
-          {
-            collect_closing_pairs(dx_free);
-            divide_into_islands();
-          }
+          divide_into_islands(dx_free);
         else
           take_target_gaps();
-        solve_lone_pairs();
+        solve_lone_pairs(dx_free);
         solve_islands(tolerance);
         bring_forces_home();
         response.update();
@@ -174,147 +168,24 @@ namespace akmon
   }
 
 
-  void
-  CoupledSolver::collect_closing_pairs(const ContactNodes::Field &dx_free)
-  {
-    const MPI_Comm communicator = nodes.get_communicator();
-    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
-    closing.clear();
-    for (unsigned int i = 0; i < all.size(); ++i)
-      if (active[i])
-        {
-          ClosingPair own{*all[i], {}, {}, friction_of_all[i], all[i]->relative(dx_free), rank, i};
-          for (unsigned int k = 0; k < all[i]->n_nodes; ++k)
-            {
-              own.ids[k]      = nodes.id_or_common(all[i]->nodes[k]);
-              own.mobility[k] = mobility[all[i]->nodes[k]];
-            }
-          closing.push_back(own);
-        }
-    if (nodes.is_parallel())
-      closing = gather(closing, communicator);
-    order.resize(closing.size());
-    std::iota(order.begin(), order.end(), 0U);
-    if (!nodes.is_parallel())
-      return;
-    std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-      return closing[a].pair.key() < closing[b].pair.key();
-    });
-    std::vector<ClosingPair> sorted;
-    for (const unsigned int i : order)
-      sorted.push_back(closing[i]);
-    closing = std::move(sorted);
-  }
-
-
-  // All else is as it was when the pairs were collected.
-  void
-  CoupledSolver::take_target_gaps()
-  {
-    gaps.clear();
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (active[i])
-        gaps.push_back(all[i]->target_gap);
-    if (nodes.is_parallel())
-      gaps = gather(gaps, nodes.get_communicator());
-    for (std::size_t i = 0; i < order.size(); ++i)
-      closing[i].pair.target_gap = gaps[order[i]];
-  }
-
-
-  bool
-  CoupledSolver::is_bonded(const ClosingPair &closing_pair) const
-  {
-    return bonds && bonds->exist() &&
-           std::any_of(closing_pair.ids.begin(),
-                       closing_pair.ids.begin() + closing_pair.pair.n_nodes,
-                       [&](const ContactNodes::Id id) { return bonds->hold_node(id); });
-  }
-
-
-  // Nodes that move are what pairs share. All bonds together are like one node.
-  void
-  CoupledSolver::divide_into_islands()
-  {
-    const ContactNodes::Id n_ids = nodes.first_common_id() + nodes.size() - nodes.first_common();
-    last_at.resize(n_ids + 1, numbers::invalid_unsigned_int);
-    std::vector<bool> bonded(closing.size());
-    UnitedSets sets(closing.size());
-    const auto meet = [&](const unsigned int i, const ContactNodes::Id node) {
-      if (last_at[node] != numbers::invalid_unsigned_int)
-        sets.unite(last_at[node], i);
-      last_at[node] = i;
-    };
-    for (unsigned int i = 0; i < closing.size(); ++i)
-      {
-        for (unsigned int k = 0; k < closing[i].pair.n_nodes; ++k)
-          if (trace(closing[i].mobility[k]) > 0.)
-            meet(i, closing[i].ids[k]);
-        bonded[i] = is_bonded(closing[i]);
-        if (bonded[i])
-          meet(i, n_ids);
-      }
-    // There are far more nodes than pairs: only these are put back.
-    last_at[n_ids] = numbers::invalid_unsigned_int;
-    for (const ClosingPair &closing_pair : closing)
-      for (unsigned int k = 0; k < closing_pair.pair.n_nodes; ++k)
-        last_at[closing_pair.ids[k]] = numbers::invalid_unsigned_int;
-
-    const unsigned int rank = Utilities::MPI::this_mpi_process(nodes.get_communicator());
-    lone.clear();
-    std::map<Key, std::unique_ptr<Island>> old = std::move(islands);
-    islands.clear();
-    for (const auto &list : sets.lists())
-      {
-        const ClosingPair &first = closing[list.front()];
-        if (first.rank != rank)
-          continue;
-        if (list.size() == 1 && !bonded[list.front()] && mobility.moves_alike(*all[first.number]))
-          {
-            lone.push_back(&first);
-            continue;
-          }
-        // Moved as it is, which asks for no memory.
-        auto known   = old.extract(first.pair.key());
-        auto &island = (known ? islands.insert(std::move(known)).position :
-                                islands.emplace(first.pair.key(), std::make_unique<Island>()).first)
-                         ->second;
-        island->members.clear();
-        for (const unsigned int i : list)
-          island->members.push_back(&closing[i]);
-        // Pairs only join during a step.
-        if (island->of_this_step && island->get_pairs().size() == list.size())
-          continue;
-        const bool any_bonded = std::any_of(list.begin(), list.end(), [&](const auto i) {
-          return bonded[i];
-        });
-        island->reinit(island->members,
-                       nodes.first_common_id(),
-                       any_bonded ? bonds : nullptr,
-                       mass_factor);
-        island->of_this_step = true;
-        island->is_solved    = false;
-      }
-  }
-
-
   // A_ii is a multiple of the identity, at least where the nodes can move: (80) and (82).
   void
-  CoupledSolver::solve_lone_pairs()
+  CoupledSolver::solve_lone_pairs(const ContactNodes::Field &dx_free)
   {
-    for (const ClosingPair *const closing_pair : lone)
+    const WorkTime timing(seconds_of_work);
+    for (const unsigned int i : lone)
       {
-        ContactPair &pair       = *all[closing_pair->number];
-        const auto &free_motion = closing_pair->free_motion;
-        const double A_ii       = mobility.along(pair, pair.normal, mass_factor);
-        const double stiffness  = A_ii > 0. ? 1. / A_ii : 0.; // else forces move nothing
-        const double gap        = pair.normal * free_motion + pair.target_gap;
-        pair.normal_force       = std::max(0., -stiffness * gap);
-        const auto friction     = Coulomb::tangential_force(-stiffness *
+        ContactPair &pair      = *all[i];
+        const auto free_motion = pair.relative(dx_free);
+        const double A_ii      = mobility.along(pair, pair.normal, mass_factor);
+        const double stiffness = A_ii > 0. ? 1. / A_ii : 0.; // else forces move nothing
+        const double gap       = pair.normal * free_motion + pair.target_gap;
+        pair.normal_force      = std::max(0., -stiffness * gap);
+        const auto friction    = Coulomb::tangential_force(-stiffness *
                                                           pair.tangential_part(free_motion),
-                                                        closing_pair->friction * pair.normal_force);
-        pair.tangential_force   = friction.force;
-        pair.sticks             = friction.sticks;
+                                                        friction_of_all[i] * pair.normal_force);
+        pair.tangential_force  = friction.force;
+        pair.sticks            = friction.sticks;
       }
   }
 
@@ -323,55 +194,30 @@ namespace akmon
   CoupledSolver::solve_islands(const double tolerance)
   {
     std::vector<double> sums(2, 0.), worst(2, 0.);
-    for (auto &[key, island] : islands)
-      {
-        const double n = island->members.size();
-        sums[1] += n;
-        island->is_new = !island->is_solved || !island->is_solved_for(island->members);
-        if (!island->is_new)
-          continue;
-        island->solve(island->members, parameters, tolerance, newton);
-        island->is_solved  = true;
-        const auto &result = island->get_result();
-        sums[0] += n * result.n_applications;
-        worst[0] = std::max(worst[0], result.residual);
-        worst[1] = std::max(worst[1], result.converged ? 0. : 1.);
-      }
+    const auto solve_island = [&](Island &island) {
+      const double n = island.members.size();
+      sums[1] += n;
+      island.is_new = !island.is_solved || !island.is_solved_for(island.members);
+      if (!island.is_new)
+        return;
+      island.solve(island.members, parameters, tolerance, newton);
+      island.is_solved   = true;
+      const auto &result = island.get_result();
+      sums[0] += n * result.n_applications;
+      worst[0] = std::max(worst[0], result.residual);
+      worst[1] = std::max(worst[1], result.converged ? 0. : 1.);
+    };
+    {
+      const WorkTime timing(seconds_of_work);
+      for (auto &[key, island] : islands)
+        solve_island(*island);
+    }
     Utilities::MPI::sum(sums, nodes.get_communicator(), sums);
     Utilities::MPI::max(worst, nodes.get_communicator(), worst);
     n_applications += sums[0];
     n_coupled     = sums[1];
     last_residual = std::max(last_residual, worst[0]);
     all_converged = all_converged && worst[1] == 0.;
-  }
-
-
-  void
-  CoupledSolver::bring_forces_home()
-  {
-    const MPI_Comm communicator = nodes.get_communicator();
-    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
-    solved.clear();
-    for (const auto &[key, island] : islands)
-      for (std::size_t i = 0; i < island->members.size() && island->is_new; ++i)
-        {
-          const ContactPair &pair = island->get_pairs()[i];
-          solved.push_back({island->members[i]->rank,
-                            island->members[i]->number,
-                            pair.normal_force,
-                            pair.tangential_force,
-                            pair.sticks});
-        }
-    if (nodes.is_parallel())
-      solved = gather(solved, communicator);
-    for (const Solved &of_pair : solved)
-      if (of_pair.rank == rank)
-        {
-          ContactPair &pair     = *all[of_pair.number];
-          pair.normal_force     = of_pair.normal_force;
-          pair.tangential_force = of_pair.tangential_force;
-          pair.sticks           = of_pair.sticks;
-        }
   }
 
 

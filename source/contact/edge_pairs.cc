@@ -1,4 +1,5 @@
 #include <akmon/contact/edge_search.h>
+#include <akmon/contact/face_geometry.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +16,6 @@ namespace akmon
     constexpr double least_sine   = 0.26; // between edges, 15 degrees: below, nodes and edges meet
     constexpr double first_sine   = 0.34; // the same of new pairs, 20 degrees
     constexpr double first_inside = 0.02; // sine: how far new pairs' normals are off those of faces
-    constexpr double barely_inside = 1e-6; // of the cell size: new pairs that overlap, for rounding
-    constexpr double deepest_part  = 0.5;  // of the cell behind: old pairs that overlap
 
 
     // Whether a part of an edge is on it. A corner that stands on an edge, or slides over it, is a

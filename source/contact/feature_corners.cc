@@ -1,3 +1,4 @@
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/feature_search.h>
 
 #include <algorithm>
@@ -11,10 +12,9 @@ namespace akmon
 
   namespace
   {
-    constexpr double opposed      = 0.02; // cosine: a corner and a face look at each other
-    constexpr double deepest_part = 0.5;  // of the cell behind: what is further inside is no pair
-    constexpr double above        = 1e-3; // of the face's size: beside it by less counts as on it
-    constexpr double rounding     = 1e-6; // of the face's size
+    constexpr double opposed  = 0.02; // cosine: a corner and a face look at each other
+    constexpr double above    = 1e-3; // of the face's size: beside it by less counts as on it
+    constexpr double rounding = 1e-6; // of the face's size
 
     // Ids of features: behind all nodes' ids and those of touching rigid bodies.
     constexpr ContactNodes::Id first_feature_id = ContactNodes::Id(1) << 31;

@@ -1,3 +1,4 @@
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/feature_search.h>
 
 #include <algorithm>
@@ -11,12 +12,9 @@ namespace akmon
 
   namespace
   {
-    constexpr double least_sine    = 0.02; // between edges: below, they do not cross
-    constexpr double nearly_along  = 0.34; // the same: below, the normal of both is hardly known
-    constexpr double normals_off   = 0.35; // radians: of a touching edge from those of the surface
-    constexpr double body_off      = 0.1;  // sine: the same from those of the body
-    constexpr double deepest_part  = 0.5;  // of the cell behind
-    constexpr double barely_inside = 1e-6; // of the face's size
+    constexpr double nearly_along = 0.34; // the same: below, the normal of both is hardly known
+    constexpr double normals_off  = 0.35; // radians: of a touching edge from those of the surface
+    constexpr double body_off     = 0.1;  // sine: the same from those of the body
 
 
     Tensor<1, 3>
@@ -116,6 +114,8 @@ namespace akmon
                        const unsigned int edge,
                        Crossing &crossing) const
   {
+    constexpr double least_sine = 0.02; // below, they do not cross
+
     const auto &nodes = surface.get_edges()[edge].nodes;
     const auto c      = x[nodes[0]];
     const auto &u     = line.u;

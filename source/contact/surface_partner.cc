@@ -1,3 +1,4 @@
+#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/surface_search.h>
 
 #include <algorithm>
@@ -95,10 +96,6 @@ namespace akmon
                           const unsigned int slave,
                           Partner &partner) const
   {
-    // A node further inside than this part of the cell behind the face belongs to another face's
-    // side.
-    constexpr double deepest_part = 0.5;
-
     const bool to_points = contact.gap_model == SurfaceContact::GapModel::point_to_point;
     if (to_points)
       snap_to_closest_node(x, x[slaves[slave].number], partner);

@@ -18,16 +18,17 @@ if [[ -z $tidy ]]; then
   exit 77
 fi
 
-# GCC's precompiled header is nothing for clang: every source must, and does, stand without it.
+# GCC's precompiled header is nothing for clang: every source must, and does, stand without it, and alone.
 database=$build_dir/tidy
-mkdir -p "$database"
-sed -E 's/ -Winvalid-pch//g; s/ -include [^ "]*cmake_pch\.hxx//g; s/ -Wno-(maybe-)?uninitialized//g; s/ -Werror / /g' \
-  "$build_dir/compile_commands.json" >"$database/compile_commands.json"
+cmake -S "$source_dir" -B "$database" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=g++ \
+  -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DAKMON_UNITY=OFF -DAKMON_TESTS=OFF >/dev/null
+sed -E -e 's/ -Winvalid-pch//g; s/ -include [^ "]*cmake_pch\.hxx//g; s/ -Wno-(maybe-)?uninitialized//g; s/ -Werror / /g' \
+  -i "$database/compile_commands.json"
 
 cd "$source_dir"
 files=("$@")
 if ((${#files[@]} == 0)); then
-  mapfile -t files < <(find source/contact source/time source/material source/forces -name '*.cc' | sort)
+  mapfile -t files < <(find source/contact source/rigid source/time source/material source/forces -name '*.cc' | sort)
 fi
 findings=$database/findings.txt
 status=0

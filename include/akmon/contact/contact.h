@@ -147,12 +147,10 @@ namespace akmon
     ContactReport
     report(const NodalState &state) const;
 
-    /// Seconds that this rank has spent on looking for its pairs, without waiting for others.
+    /// Seconds that this rank has worked on its pairs, their search and their forces, without
+    /// waiting for others.
     double
-    search_seconds() const
-    {
-      return seconds_of_search;
-    }
+    work_seconds() const;
 
     /// Extents of the contact of an interface.
     struct Patch
@@ -303,10 +301,10 @@ namespace akmon
     const std::unique_ptr<Bonds> bonds;
     const std::unique_ptr<CoupledSolver> coupled;
     BodyMotions motions;
-    double moved             = 0.; ///< how far surfaces may have approached since the last build
-    double travelled         = 0.; ///< nodes may have moved against obstacles since the beginning
-    double seconds_of_search = 0.;
-    bool prepared            = false;
+    double moved           = 0.; ///< how far surfaces may have approached since the last build
+    double travelled       = 0.; ///< nodes may have moved against obstacles since the beginning
+    double seconds_of_work = 0.; ///< but for what the coupled solver does
+    bool prepared          = false;
 
     ContactNodes::Field x, dx, dx_free, x_reached;
     ContactNodes::Field dx_reached;  ///< increments that the last solution leads to

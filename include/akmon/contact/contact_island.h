@@ -23,6 +23,7 @@ namespace akmon
     std::array<dealii::SymmetricTensor<2, 3>, 7> mobility; ///< W of its nodes; 1/mass
     double friction;                                       ///< mu
     dealii::Tensor<1, 3> free_motion;                      ///< G dx_f; length
+    bool is_bonded;                                        ///< bonds hold a node of it
     unsigned int rank, number;                             ///< where it comes from
   };
 

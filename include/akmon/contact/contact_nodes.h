@@ -107,6 +107,13 @@ namespace akmon
       return owned_indices.size() / 3;
     }
 
+    /// Whether other ranks may have pairs at a node too.
+    bool
+    is_shared(const unsigned int number) const
+    {
+      return parallel && (number >= n_owned() || taken_up[number]);
+    }
+
     /// Three components per contact node.
     class Field
     {
@@ -200,6 +207,7 @@ namespace akmon
     bool parallel;
     unsigned int n_common;
     std::vector<unsigned int> owned; ///< local numbers
+    std::vector<bool> taken_up;      ///< owned nodes, by other ranks
     std::vector<Id> ids_of_local;    ///< by local node
     std::shared_ptr<dealii::Utilities::MPI::Partitioner> partitioner;
     dealii::IndexSet owned_indices;

@@ -4,6 +4,7 @@
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/contact_response.h>
 #include <akmon/contact/pair.h>
+#include <akmon/contact/united_sets.h>
 
 #include <map>
 #include <memory>
@@ -17,9 +18,10 @@ namespace akmon
    *
    * An outer active set: pairs that had a force, or would penetrate without any, fall into islands
    * that share no node, each a problem of its own; pairs that their solution makes penetrate join,
-   * and the islands they join are solved again, until there are none. An island is solved by the
-   * rank of its first pair, so that solutions do not depend on the number of ranks. Most pairs with
-   * obstacles are alone and have the closed solution of the decoupled model.
+   * and the islands they join are solved again, until there are none. Every island is solved by
+   * one rank, so that solutions do not depend on the number of ranks: by the one whose nodes it is
+   * on, without communication, or by that of its first pair. Most pairs with obstacles are alone
+   * and have the closed solution of the decoupled model.
    */
   class CoupledSolver
   {
@@ -91,6 +93,13 @@ namespace akmon
       return last_residual;
     }
 
+    /// Seconds that this rank has worked on islands, without waiting for others.
+    double
+    work_seconds() const
+    {
+      return seconds_of_work;
+    }
+
     /// Whether every solution of the step met its tolerance.
     bool
     converged() const
@@ -132,16 +141,28 @@ namespace akmon
     activate(const ContactNodes::Field &dx_free,
              const ContactNodes::Field *caused,
              const double tolerance);
+    template <typename VisitNodes>
+    UnitedSets
+    unite(const unsigned int n_pairs, const std::size_t n_nodes, const VisitNodes &visit_nodes);
     void
-    collect_closing_pairs(const ContactNodes::Field &dx_free);
+    divide_into_islands(const ContactNodes::Field &dx_free);
+    void
+    divide_own_pairs(const ContactNodes::Field &dx_free);
+    bool
+    is_bonded(const ContactPair &pair) const;
+    void
+    append_closing_pair(const unsigned int number,
+                        const bool bonded,
+                        const ContactNodes::Field &dx_free,
+                        std::vector<ClosingPair> &pairs) const;
+    void
+    divide_shared_pairs();
+    void
+    make_island();
     void
     take_target_gaps();
     void
-    divide_into_islands();
-    bool
-    is_bonded(const ClosingPair &closing) const;
-    void
-    solve_lone_pairs();
+    solve_lone_pairs(const ContactNodes::Field &dx_free);
     void
     solve_islands(const double tolerance);
     void
@@ -158,18 +179,29 @@ namespace akmon
     std::vector<double> friction_of_all;
     std::vector<bool> active; ///< by number in `all`
     double mass_factor = 1.;
-    bool has_begun     = false;        ///< to solve in this step
-    std::vector<unsigned int> order;   ///< of the closing pairs: that they came in from the ranks
-    std::vector<ClosingPair> closing;  ///< active pairs of all ranks, sorted by key
-    std::vector<double> gaps;          ///< the target gaps of these
-    std::vector<Solved> solved;        ///< scratch for what islands tell
-    std::vector<unsigned int> last_at; ///< by node id: scratch while islands are made
-    std::vector<const ClosingPair *> lone; ///< pairs of this rank that have a closed solution
+    bool has_begun     = false; ///< to solve in this step
+
+    std::vector<unsigned int> lone;   ///< pairs that have a closed solution, by number in `all`
+    std::vector<ClosingPair> closing; ///< in islands that no other rank has a part in
+    std::vector<ClosingPair> shared;  ///< in islands that others may have a part in, by number
+    std::vector<ClosingPair> of_all_ranks;          ///< these of all ranks, one rank after another
+    std::vector<unsigned int> order;                ///< of these, by key
     std::map<Key, std::unique_ptr<Island>> islands; ///< that this rank solves, by their first pair
+    std::map<Key, std::unique_ptr<Island>> old_islands;
+
+    // Scratch.
+    std::vector<unsigned int> own;            ///< active pairs, by number in `all`
+    std::vector<bool> bonded;                 ///< the same
+    std::vector<const ClosingPair *> members; ///< of the island in work
+    std::vector<unsigned int> last_at;        ///< by node
+    std::vector<double> gaps;
+    std::vector<Solved> solved;
+
     bool friction_somewhere = false;
     double n_applications   = 0.; ///< to a pair, in all islands
     double n_coupled        = 0.; ///< pairs in all islands
     double last_residual    = 0.;
     bool all_converged      = true;
+    double seconds_of_work  = 0.;
   };
 } // namespace akmon

@@ -10,6 +10,13 @@
 
 namespace akmon
 {
+  /// What is further inside belongs to another side of the body: a part of the cell behind.
+  inline constexpr double deepest_part = 0.5;
+
+  /// As deep new pairs may overlap by rounding: a part of the cell size.
+  inline constexpr double barely_inside = 1e-6;
+
+
   /// A boundary face as a segment, its nodes where @p x has them.
   inline Segment
   segment_of(const BoundaryFace &face, const NodalVector &x)

@@ -69,7 +69,7 @@ namespace akmon
           if (number >= first_common)
             for (unsigned int d = 0; d < 3; ++d)
               of_common[3 * (number - first_common) + d].push_back(value(i, k)[d]);
-          else if (!nodes.is_parallel())
+          else if (!nodes.is_shared(number))
             field.add(number, value(i, k));
           else
             shares.push_back({nodes.id(number),
