@@ -56,6 +56,7 @@ namespace akmon
     old_islands = std::move(islands);
     islands.clear();
     lone.clear();
+    collect_own_pairs();
     divide_own_pairs(dx_free);
     if (nodes.is_parallel())
       divide_shared_pairs();
@@ -63,18 +64,34 @@ namespace akmon
   }
 
 
+  // And where other ranks have some at nodes of this one.
   void
-  CoupledSolver::divide_own_pairs(const ContactNodes::Field &dx_free)
+  CoupledSolver::collect_own_pairs()
   {
-    const WorkTime timing(seconds_of_work);
     own.clear();
     bonded.clear();
+    met.clear();
     for (unsigned int i = 0; i < all.size(); ++i)
       if (active[i])
         {
           own.push_back(i);
           bonded.push_back(is_bonded(*all[i]));
+          for (unsigned int k = 0; k < all[i]->n_nodes && nodes.is_parallel(); ++k)
+            if (const unsigned int node = all[i]->nodes[k];
+                node >= nodes.n_owned() && node < nodes.first_common())
+              met.push_back({nodes.id(node)});
         }
+    nodes.transfer_to_owners(met);
+    met_by_others.assign(nodes.n_owned(), false);
+    for (const auto &at : met)
+      met_by_others[nodes.number(at.node)] = true;
+  }
+
+
+  void
+  CoupledSolver::divide_own_pairs(const ContactNodes::Field &dx_free)
+  {
+    const WorkTime timing(seconds_of_work);
     const unsigned int of_bonds = nodes.size();
     const auto visit_nodes      = [&](const unsigned int i, const auto &visit) {
       const ContactPair &pair = *all[own[i]];
@@ -87,7 +104,7 @@ namespace akmon
     const auto is_shared = [&](const unsigned int i) {
       bool any = false;
       visit_nodes(i, [&](const unsigned int node) {
-        any = any || (node == of_bonds ? nodes.is_parallel() : nodes.is_shared(node));
+        any = any || (node < nodes.n_owned() ? met_by_others[node] : nodes.is_parallel());
       });
       return any;
     };

@@ -1,6 +1,7 @@
 #include <akmon/contact/edge_search.h>
 #include <akmon/contact/face_geometry.h>
 #include <akmon/contact/penalty.h>
+#include <akmon/contact/rank_regions.h>
 
 #include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
@@ -191,37 +192,22 @@ namespace akmon
     const MPI_Comm communicator = discretization.communicator();
     const unsigned int me       = Utilities::MPI::this_mpi_process(communicator);
     slaves                      = named(own_slaves, nodes);
-    std::vector<Point<3>> points;
-    for (const auto &edge : own_slaves)
-      for (const unsigned int node : edge.nodes)
-        points.emplace_back(at_node(x, node));
-    std::array<double, 6> box = {{1., 1., 1., 0., 0., 0.}}; // empty
-    if (!points.empty())
-      {
-        BoundingBox<3> around(points);
-        around.extend(radius);
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            box[d]     = around.get_boundary_points().first[d];
-            box[3 + d] = around.get_boundary_points().second[d];
-          }
-      }
-    const auto boxes = Utilities::MPI::all_gather(communicator, box);
+    const auto own              = named(own_masters, nodes);
+    double longest              = 0.;
+    for (const auto &edge : own_masters)
+      longest = std::max(longest, (at_node(x, edge.nodes[1]) - at_node(x, edge.nodes[0])).norm());
+    RankRegions regions;
+    for (unsigned int i = 0; i < slaves.size(); ++i)
+      for (const unsigned int node : own_slaves[i].nodes)
+        regions.add(at_node(x, node), slaves[i].body);
+    regions.exchange(radius + 0.5 * Utilities::MPI::max(longest, communicator), communicator);
 
     std::map<unsigned int, std::vector<FeatureEdge>> outgoing;
-    const auto own = named(own_masters, nodes);
     for (unsigned int i = 0; i < own.size(); ++i)
       {
         const auto a = at_node(x, own_masters[i].nodes[0]), b = at_node(x, own_masters[i].nodes[1]);
-        for (unsigned int rank = 0; rank < boxes.size(); ++rank)
-          {
-            bool overlaps = true;
-            for (unsigned int d = 0; d < 3; ++d)
-              overlaps = overlaps && std::min(a[d], b[d]) <= boxes[rank][3 + d] &&
-                         std::max(a[d], b[d]) >= boxes[rank][d];
-            if (overlaps)
-              outgoing[rank].push_back(own[i]);
-          }
+        for (const unsigned int rank : regions.at(0.5 * (a + b)))
+          outgoing[rank].push_back(own[i]);
       }
     masters = std::move(outgoing[me]);
     outgoing.erase(me);

@@ -2,7 +2,6 @@
 #include <akmon/contact/penalty.h>
 #include <akmon/contact/surface_search.h>
 
-#include <deal.II/base/bounding_box.h>
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
@@ -133,31 +132,20 @@ namespace akmon
   }
 
 
-  // Per rank the box around its slaves, lower corner and upper corner, widened so that it meets
-  // every face within the radius of a slave and the neighbours of such faces (whose normals count
-  // at edges and vertices). Empty (upper below lower) for ranks without slaves.
-  std::vector<std::array<double, 6>>
-  SurfaceSearch::slave_boxes_of_all_ranks(const NodalVector &x) const
+  // Where ranks have slaves, with a margin within which the middle is of every face in whose box,
+  // widened by the radius, a slave may be, and of the neighbours of such faces (whose normals count
+  // at edges and vertices).
+  RankRegions
+  SurfaceSearch::regions_of_slaves(const NodalVector &x) const
   {
     const double margin = search_radius +
-                          largest_diagonal(master_faces, x, discretization.communicator());
+                          1.5 * largest_diagonal(master_faces, x, discretization.communicator());
 
-    std::vector<Point<3>> points;
+    RankRegions regions;
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-      points.emplace_back(at_node(x, slaves[s].node));
-    std::array<double, 6> box = {{1., 1., 1., 0., 0., 0.}};
-    if (!points.empty())
-      {
-        BoundingBox<3> around(points);
-        around.extend(margin);
-        const auto corners = around.get_boundary_points();
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            box[d]     = corners.first[d];
-            box[3 + d] = corners.second[d];
-          }
-      }
-    return Utilities::MPI::all_gather(discretization.communicator(), box);
+      regions.add(at_node(x, slaves[s].node), discretization.body_of_node[slaves[s].node]);
+    regions.exchange(margin, discretization.communicator());
+    return regions;
   }
 
 
@@ -166,33 +154,26 @@ namespace akmon
   {
     const MPI_Comm communicator = discretization.communicator();
     const unsigned int me       = Utilities::MPI::this_mpi_process(communicator);
-    const auto slave_boxes      = slave_boxes_of_all_ranks(x);
+    RankRegions regions         = regions_of_slaves(x);
 
     std::map<unsigned int, std::vector<FaceMessage>> outgoing;
     for (const auto &face : master_faces)
       if (face.owned)
         {
-          std::vector<Point<3>> points;
+          const auto corners = segment_of(face, x);
+          const auto &ranks  = regions.at(0.25 *
+                                         (corners[0] + corners[1] + corners[2] + corners[3]));
+          if (ranks.empty())
+            continue;
           FaceMessage message{face.id,
                               face.body,
                               face.depth,
                               penalty_stiffness(discretization, face),
                               {}};
           for (unsigned int k = 0; k < 4; ++k)
-            {
-              points.emplace_back(at_node(x, face.nodes[k]));
-              message.nodes[k] = nodes.id_of_local(face.nodes[k]);
-            }
-          const auto box = BoundingBox<3>(points).get_boundary_points();
-          for (unsigned int rank = 0; rank < slave_boxes.size(); ++rank)
-            {
-              bool overlaps = true;
-              for (unsigned int d = 0; d < 3; ++d)
-                overlaps = overlaps && box.first[d] <= slave_boxes[rank][3 + d] &&
-                           box.second[d] >= slave_boxes[rank][d];
-              if (overlaps)
-                outgoing[rank].push_back(message);
-            }
+            message.nodes[k] = nodes.id_of_local(face.nodes[k]);
+          for (const unsigned int rank : ranks)
+            outgoing[rank].push_back(message);
         }
     last_ids.clear();
     for (const Memory &memory : memories)

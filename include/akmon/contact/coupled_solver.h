@@ -147,6 +147,8 @@ namespace akmon
     void
     divide_into_islands(const ContactNodes::Field &dx_free);
     void
+    collect_own_pairs();
+    void
     divide_own_pairs(const ContactNodes::Field &dx_free);
     bool
     is_bonded(const ContactPair &pair) const;
@@ -189,7 +191,14 @@ namespace akmon
     std::map<Key, std::unique_ptr<Island>> islands; ///< that this rank solves, by their first pair
     std::map<Key, std::unique_ptr<Island>> old_islands;
 
+    struct Meeting
+    {
+      ContactNodes::Id node;
+    };
+
     // Scratch.
+    std::vector<Meeting> met;                 ///< nodes of other ranks in active pairs
+    std::vector<bool> met_by_others;          ///< by owned node
     std::vector<unsigned int> own;            ///< active pairs, by number in `all`
     std::vector<bool> bonded;                 ///< the same
     std::vector<const ClosingPair *> members; ///< of the island in work

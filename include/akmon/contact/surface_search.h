@@ -6,6 +6,7 @@
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/pair.h>
 #include <akmon/contact/projection.h>
+#include <akmon/contact/rank_regions.h>
 
 #include <algorithm>
 #include <array>
@@ -226,8 +227,8 @@ namespace akmon
 
     void
     collect_slaves();
-    std::vector<std::array<double, 6>>
-    slave_boxes_of_all_ranks(const NodalVector &x) const;
+    RankRegions
+    regions_of_slaves(const NodalVector &x) const;
     static Segment
     segment(const ContactNodes::Field &x, const MasterFace &face)
     {
