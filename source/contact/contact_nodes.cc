@@ -17,17 +17,22 @@ namespace akmon
     , n_common(n_common_nodes)
     , owned(surface_nodes)
   {
-    Id n = owned.size(), first = 0;
+    Id n           = owned.size();
     const Id total = Utilities::MPI::sum(n, communicator);
-    MPI_Exscan(&n, &first, 1, Utilities::MPI::mpi_type_id_for_type<Id>, MPI_SUM, communicator);
+    MPI_Exscan(&n,
+               &first_owned,
+               1,
+               Utilities::MPI::mpi_type_id_for_type<Id>,
+               MPI_SUM,
+               communicator);
     parallel = parallel && (total > 0 || n_common > 0);
     owned_indices.set_size(3 * total);
-    owned_indices.add_range(3 * first, 3 * (first + n));
+    owned_indices.add_range(3 * first_owned, 3 * (first_owned + n));
 
     // Ghost nodes learn their ids from their owners; doubles hold integers of this size exactly.
     NodalVector ids = discretization.make_vector();
     for (unsigned int i = 0; i < owned.size(); ++i)
-      ids.local_element(3 * owned[i]) = first + i;
+      ids.local_element(3 * owned[i]) = first_owned + i;
     ids.update_ghost_values();
     ids_of_local.resize(discretization.n_nodes);
     for (unsigned int node = 0; node < discretization.n_nodes; ++node)
@@ -39,28 +44,28 @@ namespace akmon
   void
   ContactNodes::reinit(const std::vector<Id> &ids)
   {
-    std::vector<Id> others;
+    ids_of_others.clear();
     for (const Id id : ids)
       if (!owned_indices.is_element(3 * id))
-        for (unsigned int d = 0; d < 3; ++d)
-          others.push_back(3 * id + d);
-    std::sort(others.begin(), others.end());
-    others.erase(std::unique(others.begin(), others.end()), others.end());
-    taken_up.assign(owned.size(), false);
+        ids_of_others.push_back(id);
+    std::sort(ids_of_others.begin(), ids_of_others.end());
+    ids_of_others.erase(std::unique(ids_of_others.begin(), ids_of_others.end()),
+                        ids_of_others.end());
     if (owned_indices.size() == 0)
       {
         // No contact at all; deal.II's ghost exchange divides by the size.
         partitioner = std::make_shared<Utilities::MPI::Partitioner>();
         return;
       }
+    std::vector<Id> others;
+    for (const Id id : ids_of_others)
+      for (unsigned int d = 0; d < 3; ++d)
+        others.push_back(3 * id + d);
     IndexSet ghosts(owned_indices.size());
     ghosts.add_indices(others.begin(), others.end());
     partitioner = std::make_shared<Utilities::MPI::Partitioner>(owned_indices,
                                                                 ghosts,
                                                                 communicator);
-    for (const auto &[first, end] : partitioner->import_indices())
-      for (unsigned int i = first; i < end; ++i)
-        taken_up[i / 3] = true;
   }
 
 

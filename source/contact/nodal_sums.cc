@@ -6,10 +6,20 @@
 
 namespace akmon
 {
+  // With the owners of nodes, which then know where they are not alone.
+  void
+  NodalSums::exchange_shares()
+  {
+    nodes.transfer_to_owners(shares);
+    others_share.assign(nodes.n_owned(), false);
+    for (const Share &share : shares)
+      others_share[nodes.number(share.node)] = true;
+  }
+
+
   void
   NodalSums::add_shares(ContactNodes::Field &field)
   {
-    nodes.transfer_to_owners(shares);
     const auto key = [](const Share &share) {
       return std::make_tuple(share.node,
                              share.interface,

@@ -78,7 +78,8 @@ namespace akmon
     unsigned int
     number(const Id id) const
     {
-      return partitioner->global_to_local(3 * id) / 3;
+      return id - first_owned < n_owned() ? static_cast<unsigned int>(id - first_owned) :
+                                            partitioner->global_to_local(3 * id) / 3;
     }
 
     /// Local number of an owned contact node.
@@ -91,7 +92,7 @@ namespace akmon
     Id
     id(const unsigned int number) const
     {
-      return partitioner->local_to_global(3 * number) / 3;
+      return number < n_owned() ? first_owned + number : ids_of_others[number - n_owned()];
     }
 
     /// The same for all contact numbers: common nodes come behind all others.
@@ -105,13 +106,6 @@ namespace akmon
     first_common_id() const
     {
       return owned_indices.size() / 3;
-    }
-
-    /// Whether other ranks may have pairs at a node too.
-    bool
-    is_shared(const unsigned int number) const
-    {
-      return parallel && (number >= n_owned() || taken_up[number]);
     }
 
     /// Three components per contact node.
@@ -207,8 +201,9 @@ namespace akmon
     bool parallel;
     unsigned int n_common;
     std::vector<unsigned int> owned; ///< local numbers
-    std::vector<bool> taken_up;      ///< owned nodes, by other ranks
-    std::vector<Id> ids_of_local;    ///< by local node
+    Id first_owned = 0;
+    std::vector<Id> ids_of_others; ///< behind the owned ones
+    std::vector<Id> ids_of_local;  ///< by local node
     std::shared_ptr<dealii::Utilities::MPI::Partitioner> partitioner;
     dealii::IndexSet owned_indices;
     mutable std::vector<double> buffer;

@@ -40,12 +40,15 @@ namespace akmon
     };
 
     void
+    exchange_shares();
+    void
     add_shares(ContactNodes::Field &field);
     void
     add_to_common_nodes(ContactNodes::Field &field);
 
     const ContactNodes &nodes;
     std::vector<Share> shares;
+    std::vector<bool> others_share;             ///< by owned node
     std::vector<std::vector<double>> of_common; ///< by component of the common nodes
   };
 
@@ -60,29 +63,32 @@ namespace akmon
     of_common.resize(3 * (nodes.size() - first_common));
     for (auto &addends : of_common)
       addends.clear();
+    const auto share = [&](const std::size_t i, const unsigned int k) {
+      const ContactPair &pair = *pairs[i];
+      shares.push_back({nodes.id(pair.nodes[k]),
+                        pair.slave_id,
+                        pair.interface,
+                        pair.slot,
+                        pair.of_edges,
+                        pair.reversed,
+                        pair.others,
+                        value(i, k)});
+    };
+
     shares.clear();
     for (std::size_t i = 0; i < pairs.size(); ++i)
       for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
-        {
-          const ContactPair &pair   = *pairs[i];
-          const unsigned int number = pair.nodes[k];
-          if (number >= first_common)
-            for (unsigned int d = 0; d < 3; ++d)
-              of_common[3 * (number - first_common) + d].push_back(value(i, k)[d]);
-          else if (!nodes.is_shared(number))
-            field.add(number, value(i, k));
-          else
-            shares.push_back({nodes.id(number),
-                              pair.slave_id,
-                              pair.interface,
-                              pair.slot,
-                              pair.of_edges,
-                              pair.reversed,
-                              pair.others,
-                              value(i, k)});
-        }
-    if (nodes.is_parallel())
-      add_shares(field);
+        if (const unsigned int number = pairs[i]->nodes[k]; number >= first_common)
+          for (unsigned int d = 0; d < 3; ++d)
+            of_common[3 * (number - first_common) + d].push_back(value(i, k)[d]);
+        else if (number >= nodes.n_owned())
+          share(i, k);
+    exchange_shares();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
+        if (const unsigned int number = pairs[i]->nodes[k]; number < nodes.n_owned())
+          others_share[number] ? share(i, k) : field.add(number, value(i, k));
+    add_shares(field);
     if (!of_common.empty())
       add_to_common_nodes(field);
   }
