@@ -1,4 +1,4 @@
-#include <akmon/contact/initial_overlap.h>
+#include <akmon/contact/search/initial_overlap.h>
 #include <akmon/model/hexahedron_cell.h>
 #include <akmon/output/directory.h>
 #include <akmon/output/summary.h>

@@ -1,8 +1,8 @@
-#include <akmon/contact/bonds.h>
+#include <akmon/contact/bonds/bonds.h>
 #include <akmon/contact/contact.h>
-#include <akmon/contact/coupled_solver.h>
-#include <akmon/contact/edge_search.h>
-#include <akmon/contact/feature_search.h>
+#include <akmon/contact/coupled/coupled_solver.h>
+#include <akmon/contact/search/edge_search.h>
+#include <akmon/contact/search/feature_search.h>
 #include <akmon/contact/work_time.h>
 
 #include <deal.II/base/mpi.h>

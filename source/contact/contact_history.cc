@@ -1,6 +1,6 @@
-#include <akmon/contact/bonds.h>
+#include <akmon/contact/bonds/bonds.h>
 #include <akmon/contact/contact.h>
-#include <akmon/contact/coupled_solver.h>
+#include <akmon/contact/coupled/coupled_solver.h>
 
 #include <deal.II/base/mpi.h>
 

@@ -1,4 +1,4 @@
-#include <akmon/contact/bonds.h>
+#include <akmon/contact/bonds/bonds.h>
 #include <akmon/contact/contact.h>
 
 #include <map>

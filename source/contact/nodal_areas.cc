@@ -1,5 +1,5 @@
 #include <akmon/contact/nodal_areas.h>
-#include <akmon/contact/projection.h>
+#include <akmon/contact/search/projection.h>
 #include <akmon/model/nodal_state.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 #include <akmon/contact/contact.h>
-#include <akmon/contact/face_geometry.h>
 #include <akmon/contact/penalty.h>
+#include <akmon/contact/search/face_geometry.h>
 #include <akmon/output/history.h>
 
 #include <deal.II/base/mpi.h>

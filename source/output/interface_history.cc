@@ -1,4 +1,4 @@
-#include <akmon/contact/bonds.h>
+#include <akmon/contact/bonds/bonds.h>
 #include <akmon/output/interface_history.h>
 
 #include <deal.II/base/mpi.h>

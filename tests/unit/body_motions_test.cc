@@ -1,4 +1,4 @@
-#include <akmon/contact/body_motions.h>
+#include <akmon/contact/search/body_motions.h>
 
 #include <gtest/gtest.h>
 

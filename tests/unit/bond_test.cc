@@ -1,5 +1,5 @@
-#include <akmon/contact/bond_law.h>
-#include <akmon/contact/bond_points.h>
+#include <akmon/contact/bonds/bond_law.h>
+#include <akmon/contact/bonds/bond_points.h>
 
 #include <gtest/gtest.h>
 

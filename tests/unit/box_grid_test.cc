@@ -1,4 +1,4 @@
-#include <akmon/contact/box_grid.h>
+#include <akmon/contact/search/box_grid.h>
 
 #include <gtest/gtest.h>
 

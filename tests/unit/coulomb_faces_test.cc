@@ -1,4 +1,4 @@
-#include <akmon/contact/coulomb_faces.h>
+#include <akmon/contact/coupled/coulomb_faces.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <akmon/contact/coupled_solver.h>
+#include <akmon/contact/coupled/coupled_solver.h>
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 #include <akmon/contact/contact.h>
-#include <akmon/contact/delassus.h>
+#include <akmon/contact/coupled/delassus.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <akmon/contact/gauss_seidel.h>
+#include <akmon/contact/coupled/gauss_seidel.h>
 
 #include <gtest/gtest.h>
 

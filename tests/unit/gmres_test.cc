@@ -1,4 +1,4 @@
-#include <akmon/contact/gmres.h>
+#include <akmon/contact/coupled/gmres.h>
 
 #include <gtest/gtest.h>
 

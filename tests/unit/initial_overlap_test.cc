@@ -1,4 +1,4 @@
-#include <akmon/contact/initial_overlap.h>
+#include <akmon/contact/search/initial_overlap.h>
 #include <akmon/parameters.h>
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include <akmon/contact/matrix_factor.h>
+#include <akmon/contact/coupled/matrix_factor.h>
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include <akmon/contact/projection.h>
+#include <akmon/contact/search/projection.h>
 
 #include <gtest/gtest.h>
 

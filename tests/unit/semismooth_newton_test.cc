@@ -1,4 +1,4 @@
-#include <akmon/contact/semismooth_newton.h>
+#include <akmon/contact/coupled/semismooth_newton.h>
 
 #include <gtest/gtest.h>
 

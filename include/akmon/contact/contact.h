@@ -1,16 +1,16 @@
 #pragma once
 
 #include <akmon/checkpoint/checkpoint.h>
-#include <akmon/contact/body_motions.h>
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/nodal_areas.h>
-#include <akmon/contact/obstacle_search.h>
 #include <akmon/contact/pair.h>
 #include <akmon/contact/penalty.h>
-#include <akmon/contact/rigid_touch.h>
-#include <akmon/contact/surface_search.h>
+#include <akmon/contact/search/body_motions.h>
+#include <akmon/contact/search/obstacle_search.h>
+#include <akmon/contact/search/rigid_touch.h>
+#include <akmon/contact/search/surface_search.h>
 #include <akmon/model/essential_conditions.h>
 #include <akmon/model/nodal_state.h>
 

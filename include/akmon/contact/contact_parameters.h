@@ -1,6 +1,6 @@
 #pragma once
 
-#include <akmon/contact/bond_law.h>
+#include <akmon/contact/bonds/bond_law.h>
 #include <akmon/contact/coulomb.h>
 
 #include <deal.II/base/parameter_handler.h>

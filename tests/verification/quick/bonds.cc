@@ -1,4 +1,4 @@
-#include <akmon/contact/bonds.h>
+#include <akmon/contact/bonds/bonds.h>
 #include <akmon/output/history.h>
 
 #include <gtest/gtest.h>

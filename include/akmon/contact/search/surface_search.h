@@ -1,0 +1,342 @@
+#pragma once
+
+#include <akmon/contact/contact_nodes.h>
+#include <akmon/contact/contact_parameters.h>
+#include <akmon/contact/pair.h>
+#include <akmon/contact/search/body_motions.h>
+#include <akmon/contact/search/box_grid.h>
+#include <akmon/contact/search/projection.h>
+#include <akmon/contact/search/rank_regions.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace akmon
+{
+  /**
+   * Finds the partner of every slave node of one contact. In two stages: candidates (bounding
+   * boxes, across ranks, valid while nothing has moved further than half the search radius) and
+   * pairs (closest feature among the candidates, every step).
+   *
+   * A node's pair belongs to the node's owner, who gets the master faces it may meet, and their
+   * neighbours, from the other ranks.
+   */
+  class SurfaceSearch
+  {
+  public:
+    /**
+     * Throws InputError for unknown surfaces.
+     * @param number    of this search among all, for its pairs
+     * @param reversed  the contact's masters are the slaves of this search and the other way round
+     * @param coupled   for the coupled solver: corners have a pair per face
+     */
+    SurfaceSearch(const Discretization &discretization,
+                  const SurfaceContact &contact,
+                  const unsigned int interface,
+                  const unsigned int number,
+                  const bool reversed,
+                  const bool coupled);
+
+    unsigned int
+    get_interface() const
+    {
+      return interface;
+    }
+
+    /// Distance over which partners are looked for; length. The same on all ranks.
+    double
+    radius() const
+    {
+      return search_radius;
+    }
+
+    /// Let the radius be at least this, from the next build of candidates on; length.
+    void
+    look_as_far_as(const double distance)
+    {
+      search_radius = std::max(least_radius, distance);
+    }
+
+    /// Get the master faces near this rank's slaves from their owners (collective). Returns their
+    /// nodes.
+    std::vector<ContactNodes::Id>
+    fetch_master_faces(const ContactNodes &nodes, const NodalVector &x);
+
+    /**
+     * For every slave the faces within the radius, from boxes around the faces at positions @p x.
+     * @param moved  how far surfaces may have moved against each other since the last build, as far
+     *   as what has been found out about distances still holds; length
+     */
+    void
+    build_candidates(const ContactNodes &nodes,
+                     const NodalVector &positions,
+                     const ContactNodes::Field &x,
+                     const double moved);
+
+    /// Append the bodies of slaves and of their candidates.
+    void
+    collect_neighbours(std::vector<std::array<unsigned int, 2>> &bodies) const;
+
+    /// Look at all slaves again when candidates are built next.
+    void
+    forget_distances();
+
+    /**
+     * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
+     * numbers: those that are inside, and those that are no further outside than the step may lead,
+     * `steps` times what bodies nearby move in it and `least_reach` (length) at least.
+     * @param positions  the same configuration as a nodal vector
+     */
+    void
+    find_pairs(const NodalVector &positions,
+               const ContactNodes::Field &x,
+               const BodyMotions &motions,
+               const double steps,
+               const double least_reach,
+               std::vector<ContactPair> &pairs);
+
+    /**
+     * The gap of a pair's slave in another configuration, which a step has led to from the one the
+     * pair was found in; false if it has no partner there. Tells whether that is another face.
+     */
+    bool
+    gap_at(const ContactNodes::Field &x, ContactPair &pair, double &gap) const;
+
+    /// Owned and ghost faces of both surfaces.
+    const std::vector<BoundaryFace> &
+    surface_faces() const
+    {
+      return faces;
+    }
+
+    /// Relevant faces of either side.
+    const std::vector<BoundaryFace> &
+    get_slave_faces() const
+    {
+      return slave_faces;
+    }
+
+    const std::vector<BoundaryFace> &
+    get_master_faces() const
+    {
+      return master_faces;
+    }
+
+  private:
+    struct Slave
+    {
+      unsigned int node;   ///< local number
+      unsigned int number; ///< contact number
+      ContactNodes::Id id;
+      double size;                  ///< least edge of its faces, initially; length
+      double stiffness;             ///< mean of its faces' K A^2/V; force/length
+      unsigned int first_face;      ///< in slave_face_list
+      unsigned int first_candidate; ///< in candidates
+      unsigned int surroundings;    ///< number of them
+    };
+
+    // What slaves of a body have around them that have candidates of the same bodies.
+    struct Surroundings
+    {
+      unsigned int body;
+      std::vector<unsigned int> neighbours; ///< bodies, sorted
+      double increment = 0.;                ///< the largest of a node in this step; length
+      double travelled = 0.; ///< how far all may have come closer since the last build; length
+    };
+
+    struct FaceMessage
+    {
+      dealii::types::global_cell_index id;
+      unsigned int body;
+      double depth;     ///< thickness of the cell behind the face; length
+      double stiffness; ///< K A^2/V of that cell; force/length
+      std::array<ContactNodes::Id, 4> nodes;
+
+      template <class Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &id &body &depth &stiffness &nodes;
+      }
+    };
+
+    struct MasterFace
+    {
+      unsigned int body;
+      double depth, stiffness;
+      std::array<unsigned int, 4> nodes; ///< contact numbers
+    };
+
+    // A master face in the current configuration and a box around it.
+    struct FaceShape
+    {
+      dealii::Tensor<1, 3> normal, middle;     ///< area vector; length^2, length
+      double area;                             ///< length^2
+      std::array<dealii::Tensor<1, 3>, 3> box; ///< unit vectors along its edges, the last is normal
+      std::array<double, 3> half_widths;       ///< of the box around the middle; length
+      unsigned int measured_in = 0;            ///< the number of the search
+
+      explicit FaceShape(const Segment &corners);
+
+      // How far the box ends before a point in one of its directions.
+      double
+      beyond(const dealii::Tensor<1, 3> &from_middle, const unsigned int d) const
+      {
+        return std::max(0., std::abs(box[d] * from_middle) - half_widths[d]);
+      }
+
+      // No point of the face is closer to a point.
+      double
+      bound_of_distance(const dealii::Tensor<1, 3> &point) const
+      {
+        const auto from_middle = point - middle;
+        const double a = beyond(from_middle, 0), b = beyond(from_middle, 1),
+                     c = beyond(from_middle, 2);
+        return std::sqrt(a * a + b * b + c * c);
+      }
+
+      bool
+      rises_from(const dealii::Tensor<1, 3> &foot, const dealii::Tensor<1, 3> &normal) const;
+
+      bool
+      is_in_front_of(const dealii::Tensor<1, 3> &point, const double depth) const;
+    };
+
+    static constexpr double
+      furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
+    static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
+
+    // What earlier searches have found out about a slave. Distances are less what is travelled in
+    // its surroundings.
+    struct Memory
+    {
+      unsigned int face      = dealii::numbers::invalid_unsigned_int; ///< the last partner's
+      double clear_of        = 0.;                                    ///< no face is closer; length
+      double others_clear_of = 0.; ///< no other face is closer; length
+    };
+
+    struct Partner
+    {
+      unsigned int face; ///< in masters
+      Projection projection;
+      dealii::Tensor<1, 3> normal; ///< outward, of the closest feature
+      double gap;                  ///< along the normal; length
+    };
+
+    void
+    collect_slaves();
+    RankRegions
+    regions_of_slaves(const NodalVector &x) const;
+    static Segment
+    segment(const ContactNodes::Field &x, const MasterFace &face)
+    {
+      return {{x[face.nodes[0]], x[face.nodes[1]], x[face.nodes[2]], x[face.nodes[3]]}};
+    }
+    template <typename Visit>
+    void
+    visit_neighbours(const unsigned int face, const Visit &visit) const;
+    void
+    collect_faces_at_nodes(const unsigned int n_nodes);
+    void
+    settle_distances(const double moved);
+    void
+    find_last_faces();
+    void
+    collect_surroundings();
+    void
+    advance(const BodyMotions &motions);
+    void
+    find_pairs_of(const ContactNodes::Field &x,
+                  const unsigned int slave,
+                  const double travelled,
+                  const double reach,
+                  std::vector<ContactPair> &pairs);
+    dealii::Tensor<1, 3>
+    slave_normal(const NodalVector &positions, const unsigned int slave) const;
+    const FaceShape &
+    shape_of(const ContactNodes::Field &x, const unsigned int face);
+    bool
+    closest_face(const ContactNodes::Field &x,
+                 const unsigned int slave,
+                 const double travelled,
+                 const double reach,
+                 Partner &partner);
+    static bool
+    may_face(const MasterFace &face,
+             const FaceShape &shape,
+             const unsigned int slave_number,
+             const dealii::Tensor<1, 3> &outward);
+    bool
+    opposes(const MasterFace &face, const FaceShape &shape, const unsigned int slave) const;
+    void
+    slide_to_neighbour(const ContactNodes::Field &x,
+                       const unsigned int slave,
+                       const bool across_ridges_only,
+                       Partner &partner) const;
+    dealii::Tensor<1, 3>
+    face_normal(const ContactNodes::Field &x, const Partner &partner) const;
+    bool
+    complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
+    ContactPair
+    make_pair(const ContactNodes::Field &x, const unsigned int slave, const Partner &partner) const;
+    void
+    add_valley_pairs(const ContactNodes::Field &x,
+                     const double reach,
+                     Partner partner,
+                     std::vector<ContactPair> &pairs);
+    void
+    add_corner_pairs(const ContactNodes::Field &x,
+                     const double reach,
+                     std::vector<ContactPair> &pairs);
+    void
+    snap_to_closest_node(const ContactNodes::Field &x,
+                         const dealii::Tensor<1, 3> &slave,
+                         Partner &partner) const;
+    dealii::Tensor<1, 3>
+    feature_normal(const ContactNodes::Field &x, const Partner &partner, bool &on_rim) const;
+    unsigned int
+    faces_sharing(const unsigned int node_a, const unsigned int node_b) const;
+
+    const Discretization &discretization;
+    const SurfaceContact &contact;
+    const unsigned int interface, number;
+    const bool reversed, coupled, has_friction;
+    double least_radius, search_radius;
+    double built_radius = 0.; ///< that the candidates have been looked for within
+    std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
+
+    std::vector<Slave> slaves; ///< and one past the end
+    std::vector<unsigned int> slave_face_list, candidates;
+    std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
+    std::vector<Memory> memories;               ///< by slave
+    std::vector<double> candidates_clear_of;    ///< as in the memories
+    std::vector<Surroundings> surroundings;
+    std::vector<FaceMessage> fetched;                       ///< sorted by id
+    std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
+    std::vector<MasterFace> masters;                        ///< in the same order
+    std::vector<FaceShape> shapes; ///< of the candidate faces, in the same numbers
+    unsigned int n_searches = 0;
+    BoxGrid grid;                             ///< of the master faces, widened by the radius
+    std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
+    std::vector<unsigned int> faces_at;
+  };
+
+
+  // visit(f) for every face that shares a node with a face, once: at the first of these nodes.
+  template <typename Visit>
+  void
+  SurfaceSearch::visit_neighbours(const unsigned int face, const Visit &visit) const
+  {
+    const auto &nodes = masters[face].nodes;
+    for (auto node = nodes.begin(); node != nodes.end(); ++node)
+      for (unsigned int i = faces_at_begin[*node]; i < faces_at_begin[*node + 1]; ++i)
+        {
+          const auto &others = masters[faces_at[i]].nodes;
+          if (faces_at[i] != face &&
+              std::find_first_of(nodes.begin(), node, others.begin(), others.end()) == node)
+            visit(faces_at[i]);
+        }
+  }
+} // namespace akmon

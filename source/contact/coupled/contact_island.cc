@@ -1,0 +1,189 @@
+#include <akmon/contact/bonds/bonds.h>
+#include <akmon/contact/coupled/contact_island.h>
+#include <akmon/contact/coupled/gauss_seidel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace akmon
+{
+  using namespace dealii;
+
+  void
+  ContactIsland::reinit(const std::vector<const ClosingPair *> &members,
+                        const ContactNodes::Id first_common_id,
+                        const Bonds *const bonds,
+                        const double effective_mass_factor)
+  {
+    constexpr std::size_t most_assembled = 32; // pairs
+
+    number_nodes(members, first_common_id);
+    delassus.reinit(pairs, mobility, effective_mass_factor);
+    result                     = {0, 0., true};
+    problem.start_is_reference = false;
+    if (bonds)
+      delassus.set_bonds(*bonds, ids);
+    else if (pairs.size() <= most_assembled)
+      delassus.assemble();
+    preconditioner.set_pairs(pairs, delassus, mobility, effective_mass_factor);
+    problem.norm = delassus.norm_bound();
+    problem.friction.clear();
+    problem.weights.clear();
+    tau.clear();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      {
+        const double s = delassus.scale()[i];
+        problem.friction.push_back(members[i]->friction);
+        problem.weights.push_back(s > 0. ? 1. / (s * pairs[i].size) : 0.);
+        tau.push_back(s > 0. ? delassus.frame(i) * pairs[i].force() / s : Tensor<1, 3>());
+      }
+  }
+
+
+  void
+  ContactIsland::number_nodes(const std::vector<const ClosingPair *> &members,
+                              const ContactNodes::Id first_common_id)
+  {
+    ids.clear();
+    for (const ClosingPair *const member : members)
+      ids.insert(ids.end(), member->ids.begin(), member->ids.begin() + member->pair.n_nodes);
+    std::sort(ids.begin(), ids.end());
+    ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+    const auto number = [&](const ContactNodes::Id id) {
+      return static_cast<unsigned int>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
+    };
+    mobility.reinit(ids.size(), number(first_common_id));
+    pairs.clear();
+    for (const ClosingPair *const member : members)
+      {
+        pairs.push_back(member->pair);
+        for (unsigned int k = 0; k < member->pair.n_nodes; ++k)
+          {
+            const unsigned int node = number(member->ids[k]);
+            pairs.back().nodes[k]   = node;
+            mobility.set(node, member->mobility[k]);
+          }
+      }
+  }
+
+
+  bool
+  ContactIsland::is_solved_for(const std::vector<const ClosingPair *> &members) const
+  {
+    return std::equal(pairs.begin(),
+                      pairs.end(),
+                      members.begin(),
+                      members.end(),
+                      [](const ContactPair &pair, const ClosingPair *const member) {
+                        return pair.target_gap == member->pair.target_gap;
+                      });
+  }
+
+
+  void
+  ContactIsland::solve(const std::vector<const ClosingPair *> &members,
+                       const ContactSolver &parameters,
+                       const double tolerance,
+                       Newton &newton)
+  {
+    // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
+    // for gaps (SemismoothNewton).
+    constexpr double compliance     = 1e-7;
+    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
+
+    problem.tolerance  = tolerance;
+    problem.sufficient = std::max(parameters.tolerance, tolerance);
+    // Where no friction was found in this step none would be now: gaps are closed at once.
+    problem.limit = result.converged || !problem.rubs() ? parameters.limit : 1;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      pairs[i].target_gap = members[i]->pair.target_gap;
+    const auto &s      = delassus.scale();
+    problem.compliance = compliance;
+    problem.b.resize(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      {
+        problem.b[i] = s[i] * (delassus.frame(i) * members[i]->free_motion);
+        problem.b[i][0] += s[i] * members[i]->pair.target_gap;
+      }
+    result                     = newton.solve(problem, delassus, preconditioner, tau, faces);
+    problem.start_is_reference = true; // of the next gaps of the same step
+    if (!result.converged && delassus.matrix().size() > 0)
+      start_elsewhere(parameters.limit, newton);
+    if (!result.converged && problem.rubs() && largest_overlap() > problem.sufficient)
+      let_slip(parameters.limit, newton);
+    if (!preconditioner.is_old())
+      iterations_when_new = result.n_applications;
+    else if (result.n_applications > iterations_when_new + patience)
+      preconditioner.forget();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      {
+        auto &pair            = pairs[i];
+        const auto force      = s[i] * tau[i];
+        pair.normal_force     = force[0];
+        pair.tangential_force = force[1] * delassus.frame(i)[1] + force[2] * delassus.frame(i)[2];
+        // On the circle up to rounding is sliding.
+        pair.sticks = pair.normal_force > 0. &&
+                      pair.tangential_force.norm() <
+                        (1. - 1e-12) * problem.friction[i] * pair.normal_force;
+      }
+  }
+
+
+  // Where no solution was found there may be one all the same.
+  void
+  ContactIsland::start_elsewhere(const unsigned int limit, Newton &newton)
+  {
+    constexpr unsigned int n_sweeps = 200;
+
+    const auto with_closed_gaps = tau;
+    const Newton::Result failed = result;
+    unsigned int n_applications = failed.n_applications;
+    problem.limit               = limit;
+    for (const bool from_zero : {false, true})
+      {
+        if (from_zero)
+          tau.assign(tau.size(), {});
+        sweep(delassus.matrix(), problem, n_sweeps, tau);
+        result = newton.solve(problem, delassus, preconditioner, tau, faces);
+        n_applications += n_sweeps + result.n_applications;
+        if (result.converged)
+          break;
+      }
+    if (!result.converged)
+      {
+        tau    = with_closed_gaps;
+        result = failed;
+      }
+    result.n_applications = n_applications;
+  }
+
+
+  // By which gaps are less than they should be, over the size of the pair.
+  double
+  ContactIsland::largest_overlap()
+  {
+    auto w = tau;
+    delassus.apply(tau, w);
+    double largest = 0.;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      largest = std::max(largest, -problem.weights[i] * (w[i][0] + problem.b[i][0]));
+    return largest;
+  }
+
+
+  // Bodies that are wedged may have no forces with any friction that could be found: they slip
+  // freely in this step.
+  void
+  ContactIsland::let_slip(const unsigned int limit, Newton &newton)
+  {
+    const unsigned int n_applications = result.n_applications;
+    const auto friction               = problem.friction;
+    problem.friction.assign(friction.size(), 0.);
+    problem.limit = limit;
+    tau.assign(tau.size(), {});
+    result           = newton.solve(problem, delassus, preconditioner, tau, faces);
+    problem.friction = friction;
+    result.n_applications += n_applications;
+    result.converged = false; // with friction
+  }
+} // namespace akmon

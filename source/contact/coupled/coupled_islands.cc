@@ -1,0 +1,272 @@
+#include <akmon/contact/bonds/bonds.h>
+#include <akmon/contact/coupled/coupled_solver.h>
+#include <akmon/contact/coupled/gather.h>
+#include <akmon/contact/work_time.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <numeric>
+
+// How the coupled solver divides pairs into islands, and which rank solves them.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  // Nodes that move are what pairs share. All bonds together are like one node, the last.
+  template <typename VisitNodes>
+  UnitedSets
+  CoupledSolver::unite(const unsigned int n_pairs,
+                       const std::size_t n_nodes,
+                       const VisitNodes &visit_nodes)
+  {
+    last_at.resize(std::max(last_at.size(), n_nodes + 1), numbers::invalid_unsigned_int);
+    UnitedSets sets(n_pairs);
+    for (unsigned int i = 0; i < n_pairs; ++i)
+      visit_nodes(i, [&](const std::size_t node) {
+        if (last_at[node] != numbers::invalid_unsigned_int)
+          sets.unite(last_at[node], i);
+        last_at[node] = i;
+      });
+    // There are far more nodes than pairs: only these are put back.
+    for (unsigned int i = 0; i < n_pairs; ++i)
+      visit_nodes(i,
+                  [&](const std::size_t node) { last_at[node] = numbers::invalid_unsigned_int; });
+    return sets;
+  }
+
+
+  bool
+  CoupledSolver::is_bonded(const ContactPair &pair) const
+  {
+    return bonds && bonds->exist() &&
+           std::any_of(pair.nodes.begin(),
+                       pair.nodes.begin() + pair.n_nodes,
+                       [&](const unsigned int node) {
+                         return bonds->hold_node(nodes.id_or_common(node));
+                       });
+  }
+
+
+  // Pairs that other ranks can have no part in stay on this one.
+  void
+  CoupledSolver::divide_into_islands(const ContactNodes::Field &dx_free)
+  {
+    old_islands = std::move(islands);
+    islands.clear();
+    lone.clear();
+    collect_own_pairs();
+    divide_own_pairs(dx_free);
+    if (nodes.is_parallel())
+      divide_shared_pairs();
+    old_islands.clear();
+  }
+
+
+  // And where other ranks have some at nodes of this one.
+  void
+  CoupledSolver::collect_own_pairs()
+  {
+    own.clear();
+    bonded.clear();
+    met.clear();
+    for (unsigned int i = 0; i < all.size(); ++i)
+      if (active[i])
+        {
+          own.push_back(i);
+          bonded.push_back(is_bonded(*all[i]));
+          for (unsigned int k = 0; k < all[i]->n_nodes && nodes.is_parallel(); ++k)
+            if (const unsigned int node = all[i]->nodes[k];
+                node >= nodes.n_owned() && node < nodes.first_common())
+              met.push_back({nodes.id(node)});
+        }
+    nodes.transfer_to_owners(met);
+    met_by_others.assign(nodes.n_owned(), false);
+    for (const auto &at : met)
+      met_by_others[nodes.number(at.node)] = true;
+  }
+
+
+  void
+  CoupledSolver::divide_own_pairs(const ContactNodes::Field &dx_free)
+  {
+    const WorkTime timing(seconds_of_work);
+    const unsigned int of_bonds = nodes.size();
+    const auto visit_nodes      = [&](const unsigned int i, const auto &visit) {
+      const ContactPair &pair = *all[own[i]];
+      for (unsigned int k = 0; k < pair.n_nodes; ++k)
+        if (!mobility.is_held(pair.nodes[k]))
+          visit(pair.nodes[k]);
+      if (bonded[i])
+        visit(of_bonds);
+    };
+    const auto is_shared = [&](const unsigned int i) {
+      bool any = false;
+      visit_nodes(i, [&](const unsigned int node) {
+        any = any || (node < nodes.n_owned() ? met_by_others[node] : nodes.is_parallel());
+      });
+      return any;
+    };
+
+    shared.clear();
+    closing.clear();
+    closing.reserve(own.size()); // members are referred to
+    for (const auto &list : unite(own.size(), of_bonds, visit_nodes).lists())
+      if (const unsigned int first = list.front(); std::any_of(list.begin(), list.end(), is_shared))
+        for (const unsigned int i : list)
+          append_closing_pair(own[i], bonded[i], dx_free, shared);
+      else if (list.size() == 1 && !bonded[first] && mobility.moves_alike(*all[own[first]]))
+        lone.push_back(own[first]);
+      else
+        {
+          members.clear();
+          for (const unsigned int i : list)
+            {
+              append_closing_pair(own[i], bonded[i], dx_free, closing);
+              members.push_back(&closing.back());
+            }
+          make_island();
+        }
+  }
+
+
+  void
+  CoupledSolver::append_closing_pair(const unsigned int number,
+                                     const bool bonded,
+                                     const ContactNodes::Field &dx_free,
+                                     std::vector<ClosingPair> &pairs) const
+  {
+    const ContactPair &pair = *all[number];
+    pairs.push_back({pair,
+                     {},
+                     {},
+                     friction_of_all[number],
+                     pair.relative(dx_free),
+                     bonded,
+                     Utilities::MPI::this_mpi_process(nodes.get_communicator()),
+                     number});
+    for (unsigned int k = 0; k < pair.n_nodes; ++k)
+      {
+        pairs.back().ids[k]      = nodes.id_or_common(pair.nodes[k]);
+        pairs.back().mobility[k] = mobility[pair.nodes[k]];
+      }
+  }
+
+
+  // The rank of an island's first pair solves it.
+  void
+  CoupledSolver::divide_shared_pairs()
+  {
+    const unsigned int rank = Utilities::MPI::this_mpi_process(nodes.get_communicator());
+    std::sort(shared.begin(), shared.end(), [](const ClosingPair &a, const ClosingPair &b) {
+      return a.number < b.number;
+    });
+    of_all_ranks = gather(shared, nodes.get_communicator());
+    order.resize(of_all_ranks.size());
+    std::iota(order.begin(), order.end(), 0U);
+    std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
+      return of_all_ranks[a].pair.key() < of_all_ranks[b].pair.key();
+    });
+
+    const ContactNodes::Id of_bonds = nodes.first_common_id() + nodes.size() - nodes.first_common();
+    const auto visit_nodes          = [&](const unsigned int i, const auto &visit) {
+      const ClosingPair &pair = of_all_ranks[order[i]];
+      for (unsigned int k = 0; k < pair.pair.n_nodes; ++k)
+        if (trace(pair.mobility[k]) > 0.)
+          visit(pair.ids[k]);
+      if (pair.is_bonded)
+        visit(of_bonds);
+    };
+    for (const auto &list : unite(order.size(), of_bonds, visit_nodes).lists())
+      {
+        const ClosingPair &first = of_all_ranks[order[list.front()]];
+        if (first.rank != rank)
+          continue;
+        if (list.size() == 1 && !first.is_bonded && mobility.moves_alike(*all[first.number]))
+          {
+            lone.push_back(first.number);
+            continue;
+          }
+        members.clear();
+        for (const unsigned int i : list)
+          members.push_back(&of_all_ranks[order[i]]);
+        make_island();
+      }
+  }
+
+
+  // Of the members, sorted by key. Moved as it was in the last step, which asks for no memory.
+  void
+  CoupledSolver::make_island()
+  {
+    const Key key = members.front()->pair.key();
+    auto known    = old_islands.extract(key);
+    auto &island  = (known ? islands.insert(std::move(known)).position :
+                             islands.emplace(key, std::make_unique<Island>()).first)
+                     ->second;
+    island->members = members;
+    // Pairs only join during a step.
+    if (island->of_this_step && island->get_pairs().size() == members.size())
+      return;
+    const bool any_bonded = std::any_of(members.begin(), members.end(), [](const auto *member) {
+      return member->is_bonded;
+    });
+    island->reinit(members, nodes.first_common_id(), any_bonded ? bonds : nullptr, mass_factor);
+    island->of_this_step = true;
+    island->is_solved    = false;
+  }
+
+
+  // All else is as it was when the islands were made.
+  void
+  CoupledSolver::take_target_gaps()
+  {
+    for (ClosingPair &own : closing)
+      own.pair.target_gap = all[own.number]->target_gap;
+    if (!nodes.is_parallel() || of_all_ranks.empty())
+      return;
+    gaps.clear();
+    for (const ClosingPair &own : shared)
+      gaps.push_back(all[own.number]->target_gap);
+    gaps = gather(gaps, nodes.get_communicator());
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+      of_all_ranks[i].pair.target_gap = gaps[i];
+  }
+
+
+  void
+  CoupledSolver::bring_forces_home()
+  {
+    const MPI_Comm communicator = nodes.get_communicator();
+    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
+    const auto take             = [&](const Solved &solved_pair) {
+      ContactPair &pair     = *all[solved_pair.number];
+      pair.normal_force     = solved_pair.normal_force;
+      pair.tangential_force = solved_pair.tangential_force;
+      pair.sticks           = solved_pair.sticks;
+    };
+
+    solved.clear();
+    for (const auto &[key, island] : islands)
+      for (std::size_t i = 0; i < island->members.size() && island->is_new; ++i)
+        {
+          const ContactPair &pair   = island->get_pairs()[i];
+          const ClosingPair &member = *island->members[i];
+          const Solved of_pair{member.rank,
+                               member.number,
+                               pair.normal_force,
+                               pair.tangential_force,
+                               pair.sticks};
+          if (member.rank == rank)
+            take(of_pair);
+          else
+            solved.push_back(of_pair);
+        }
+    if (!nodes.is_parallel() || of_all_ranks.empty())
+      return;
+    for (const Solved &of_pair : gather(solved, communicator))
+      if (of_pair.rank == rank)
+        take(of_pair);
+  }
+} // namespace akmon

@@ -1,0 +1,229 @@
+#include <akmon/contact/coulomb.h>
+#include <akmon/contact/coupled/coupled_solver.h>
+#include <akmon/contact/work_time.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Where rigid bodies touch at more points than it takes, the gaps disagree by rounding, which
+    // nothing can move: relative to the size of the pairs.
+    double
+    rounding_of_rigid_gaps(const std::vector<ContactPair *> &pairs)
+    {
+      constexpr double rounding = 1e-15;
+
+      double largest = 0.;
+      for (const ContactPair *const pair : pairs)
+        if (pair->slave == numbers::invalid_unsigned_int)
+          largest = std::max(largest, rounding * (1. + pair->place.norm() / pair->size));
+      return largest;
+    }
+  } // namespace
+
+
+  CoupledSolver::CoupledSolver(const ContactSolver &parameters,
+                               const ContactNodes &nodes,
+                               const Mobility &mobility,
+                               const Bonds *const bonds)
+    : parameters(parameters)
+    , nodes(nodes)
+    , mobility(mobility)
+    , bonds(bonds)
+    , response(nodes, mobility, bonds)
+  {
+  }
+
+
+  // Pairs that the step could close: the contact forces move a node by no more than a few times
+  // what the fastest pair would do freely. What rigid bodies' rims touch may be elsewhere then.
+  void
+  CoupledSolver::choose_participants(std::vector<ContactPair> &pairs,
+                                     const ContactNodes::Field &dx_free,
+                                     const std::vector<double> &friction_of_pairs)
+  {
+    double fastest = 0.;
+    for (const auto &pair : pairs)
+      fastest = std::max(fastest, std::abs(pair.normal * pair.relative(dx_free)));
+    const double margin = 4. * Utilities::MPI::max(fastest, nodes.get_communicator());
+    all.clear();
+    friction_of_all.clear();
+    active.clear();
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (pairs[i].target_gap <= margin || pairs[i].is_touch())
+        {
+          all.push_back(&pairs[i]);
+          friction_of_all.push_back(friction_of_pairs[i]);
+          active.push_back(pairs[i].normal_force > 0.);
+        }
+      else
+        {
+          pairs[i].normal_force     = 0.;
+          pairs[i].tangential_force = Tensor<1, 3>();
+        }
+  }
+
+
+  void
+  CoupledSolver::begin_step(std::vector<ContactPair> &pairs,
+                            const ContactNodes::Field &dx_free,
+                            const std::vector<double> &friction_of_pairs,
+                            const double effective_mass_factor)
+  {
+    n_applications = n_coupled = last_residual = 0.;
+    all_converged                              = true;
+    mass_factor                                = effective_mass_factor;
+    take_up_anew(pairs, dx_free, friction_of_pairs);
+    const bool friction_here = std::any_of(friction_of_all.begin(),
+                                           friction_of_all.end(),
+                                           [](const double mu) { return mu > 0.; });
+    friction_somewhere = Utilities::MPI::max(int(friction_here), nodes.get_communicator()) > 0;
+  }
+
+
+  void
+  CoupledSolver::take_up_anew(std::vector<ContactPair> &pairs,
+                              const ContactNodes::Field &dx_free,
+                              const std::vector<double> &friction_of_pairs)
+  {
+    choose_participants(pairs, dx_free, friction_of_pairs);
+    response.reinit(all, mass_factor);
+    has_begun = false;
+    for (auto &[key, island] : islands)
+      island->of_this_step = false;
+  }
+
+
+  void
+  CoupledSolver::solve(const ContactNodes::Field &dx_free)
+  {
+    const double tolerance = tolerance_for(dx_free);
+    bool join              = activate(dx_free, nullptr, 0.) || !has_begun;
+    has_begun              = true;
+    do
+      {
+        if (join)
+          divide_into_islands(dx_free);
+        else
+          take_target_gaps();
+        solve_lone_pairs(dx_free);
+        solve_islands(tolerance);
+        bring_forces_home();
+        response.update();
+        join = activate(dx_free, &response.increments(), tolerance);
+      }
+    while (join);
+  }
+
+
+  // n . G (dx_f + caused) + g
+  double
+  CoupledSolver::gap_after(const ContactPair &pair,
+                           const ContactNodes::Field &dx_free,
+                           const ContactNodes::Field *const caused) const
+  {
+    const double gap = pair.normal * pair.relative(dx_free) + pair.target_gap;
+    return caused ? gap + pair.normal * pair.relative(*caused) : gap;
+  }
+
+
+  // Gaps are to be exact relative to the cell, forces relative to themselves: what remains of a
+  // violation over the violation without contact forces is the relative error of the forces. Gaps
+  // are not known better than to rounding, though.
+  double
+  CoupledSolver::tolerance_for(const ContactNodes::Field &dx_free) const
+  {
+    constexpr double force_tolerance = 1e-11, rounding = 1e-14;
+
+    double violation = 0.;
+    for (const ContactPair *const pair : all)
+      violation = std::max(violation, -gap_after(*pair, dx_free, nullptr) / pair->size);
+    const double relative = force_tolerance *
+                            Utilities::MPI::max(violation, nodes.get_communicator());
+    return std::max(std::min(parameters.tolerance, std::max(relative, rounding)),
+                    Utilities::MPI::max(rounding_of_rigid_gaps(all), nodes.get_communicator()));
+  }
+
+
+  // Pairs join that penetrate by more than what is tolerated, relative to the cell size, and that
+  // forces can move. Whether there are any, on any rank.
+  bool
+  CoupledSolver::activate(const ContactNodes::Field &dx_free,
+                          const ContactNodes::Field *const caused,
+                          const double tolerance)
+  {
+    bool any = false;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (!active[i] && gap_after(*all[i], dx_free, caused) < -tolerance * all[i]->size &&
+          mobility.along(*all[i], all[i]->normal, mass_factor) > 0.)
+        any = active[i] = true;
+    return Utilities::MPI::max(int(any), nodes.get_communicator()) > 0;
+  }
+
+
+  // A_ii is a multiple of the identity, at least where the nodes can move: (80) and (82).
+  void
+  CoupledSolver::solve_lone_pairs(const ContactNodes::Field &dx_free)
+  {
+    const WorkTime timing(seconds_of_work);
+    for (const unsigned int i : lone)
+      {
+        ContactPair &pair      = *all[i];
+        const auto free_motion = pair.relative(dx_free);
+        const double A_ii      = mobility.along(pair, pair.normal, mass_factor);
+        const double stiffness = A_ii > 0. ? 1. / A_ii : 0.; // else forces move nothing
+        const double gap       = pair.normal * free_motion + pair.target_gap;
+        pair.normal_force      = std::max(0., -stiffness * gap);
+        const auto friction    = Coulomb::tangential_force(-stiffness *
+                                                          pair.tangential_part(free_motion),
+                                                        friction_of_all[i] * pair.normal_force);
+        pair.tangential_force  = friction.force;
+        pair.sticks            = friction.sticks;
+      }
+  }
+
+
+  void
+  CoupledSolver::solve_islands(const double tolerance)
+  {
+    std::vector<double> sums(2, 0.), worst(2, 0.);
+    const auto solve_island = [&](Island &island) {
+      const double n = island.members.size();
+      sums[1] += n;
+      island.is_new = !island.is_solved || !island.is_solved_for(island.members);
+      if (!island.is_new)
+        return;
+      island.solve(island.members, parameters, tolerance, newton);
+      island.is_solved   = true;
+      const auto &result = island.get_result();
+      sums[0] += n * result.n_applications;
+      worst[0] = std::max(worst[0], result.residual);
+      worst[1] = std::max(worst[1], result.converged ? 0. : 1.);
+    };
+    {
+      const WorkTime timing(seconds_of_work);
+      for (auto &[key, island] : islands)
+        solve_island(*island);
+    }
+    Utilities::MPI::sum(sums, nodes.get_communicator(), sums);
+    Utilities::MPI::max(worst, nodes.get_communicator(), worst);
+    n_applications += sums[0];
+    n_coupled     = sums[1];
+    last_residual = std::max(last_residual, worst[0]);
+    all_converged = all_converged && worst[1] == 0.;
+  }
+
+
+  unsigned int
+  CoupledSolver::iterations() const
+  {
+    return n_coupled > 0. ? static_cast<unsigned int>(std::ceil(n_applications / n_coupled)) : 0;
+  }
+} // namespace akmon

@@ -1,0 +1,142 @@
+#include <akmon/contact/bonds/bonds.h>
+#include <akmon/contact/coupled/delassus.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace akmon
+{
+  using dealii::Tensor;
+
+  namespace
+  {
+    // A unit vector and two others that complete it to an orthonormal frame.
+    Tensor<2, 3>
+    frame_of(const Tensor<1, 3> &normal)
+    {
+      unsigned int smallest = 0;
+      for (unsigned int d = 1; d < 3; ++d)
+        if (std::abs(normal[d]) < std::abs(normal[smallest]))
+          smallest = d;
+      Tensor<1, 3> axis;
+      axis[smallest]     = 1.;
+      Tensor<1, 3> first = cross_product_3d(normal, axis);
+      first /= first.norm();
+      Tensor<2, 3> frame;
+      frame[0] = normal;
+      frame[1] = first;
+      frame[2] = cross_product_3d(normal, first);
+      return frame;
+    }
+  } // namespace
+
+
+  void
+  Delassus::reinit(const std::vector<ContactPair> &new_pairs,
+                   const Mobility &new_mobility,
+                   const double new_mass_factor)
+  {
+    pairs       = &new_pairs;
+    mobility    = &new_mobility;
+    bonds       = nullptr;
+    mass_factor = new_mass_factor;
+    scales.clear();
+    frames.clear();
+    for (const ContactPair &pair : *pairs)
+      {
+        const double A_ii = mobility->along(pair, pair.normal, mass_factor);
+        scales.push_back(A_ii > 0. ? 1. / std::sqrt(A_ii) : 0.);
+        frames.push_back(frame_of(pair.normal));
+      }
+    field.reinit(mobility->size());
+    assembled.resize(0, 0);
+  }
+
+
+  void
+  Delassus::assemble()
+  {
+    columns.clear();
+    begins.assign(1, 0);
+    for (std::size_t i = 0; i < pairs->size(); ++i)
+      {
+        const ContactPair &pair = (*pairs)[i];
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          if (const unsigned int node = pair.nodes[k]; !mobility->is_held(node))
+            {
+              Column column{node, {}, {}};
+              for (unsigned int d = 0; d < 3; ++d)
+                {
+                  column.force[d]     = pair.at_node(k, scales[i] * frames[i][d]);
+                  column.increment[d] = (*mobility)[node] * column.force[d] / mass_factor;
+                }
+              columns.push_back(column);
+            }
+        begins.push_back(columns.size());
+      }
+    assembled.setZero(3 * pairs->size(), 3 * pairs->size());
+    const auto visit_columns = [&](const std::size_t i, const auto &visit) {
+      std::for_each(columns.begin() + begins[i], columns.begin() + begins[i + 1], visit);
+    };
+    for (std::size_t i = 0; i < pairs->size(); ++i)
+      for (std::size_t j = 0; j <= i; ++j)
+        {
+          visit_columns(i, [&](const Column &row) {
+            visit_columns(j, [&](const Column &column) {
+              if (row.node == column.node)
+                for (unsigned int c = 0; c < 3; ++c)
+                  for (unsigned int r = 0; r < 3; ++r)
+                    assembled(3 * i + r, 3 * j + c) += row.force[r] * column.increment[c];
+            });
+          });
+          assembled.block<3, 3>(3 * j, 3 * i) = assembled.block<3, 3>(3 * i, 3 * j).transpose();
+        }
+  }
+
+
+  // Row sums of the norms of A's blocks bound its norm: node by node, the coefficients of all pairs
+  // at the node.
+  double
+  Delassus::norm_bound()
+  {
+    at_node.assign(mobility->size(), 0.);
+    for (std::size_t i = 0; i < pairs->size(); ++i)
+      for (unsigned int k = 0; k < (*pairs)[i].n_nodes; ++k)
+        at_node[(*pairs)[i].nodes[k]] += (*pairs)[i].bound_at_node(k) * scales[i];
+    double largest = 0.;
+    for (std::size_t i = 0; i < pairs->size(); ++i)
+      {
+        double row = 0.;
+        for (unsigned int k = 0; k < (*pairs)[i].n_nodes; ++k)
+          {
+            const unsigned int node = (*pairs)[i].nodes[k];
+            row += (*pairs)[i].bound_at_node(k) * scales[i] * at_node[node] *
+                   mobility->inverse_mass(node) / mass_factor;
+          }
+        largest = std::max(largest, row);
+      }
+    return largest;
+  }
+
+
+  void
+  Delassus::apply(const Vector &tau, Vector &y)
+  {
+    if (assembled.size() > 0)
+      {
+        const auto n = assembled.rows();
+        Eigen::Map<Eigen::VectorXd>(y.front().begin_raw(), n)
+          .noalias() = assembled * Eigen::Map<const Eigen::VectorXd>(tau.front().begin_raw(), n);
+        return;
+      }
+    field.clear();
+    for (std::size_t i = 0; i < pairs->size(); ++i)
+      (*pairs)[i].distribute(scales[i] * (tau[i] * frames[i]), field);
+    for (unsigned int node = 0; node < mobility->size(); ++node)
+      field.set(node, (*mobility)[node] * field[node] / mass_factor);
+    if (bonds)
+      bonds->project(*ids, field);
+    for (std::size_t i = 0; i < pairs->size(); ++i)
+      y[i] = scales[i] * (frames[i] * (*pairs)[i].relative(field));
+  }
+} // namespace akmon

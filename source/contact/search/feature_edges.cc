@@ -1,0 +1,367 @@
+#include <akmon/contact/search/face_geometry.h>
+#include <akmon/contact/search/feature_search.h>
+
+#include <algorithm>
+#include <cmath>
+
+// Pairs of sharp edges of rigid bodies with edges between faces and with faces.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double nearly_along = 0.34; // the same: below, the normal of both is hardly known
+    constexpr double normals_off  = 0.35; // radians: of a touching edge from those of the surface
+    constexpr double body_off     = 0.1;  // sine: the same from those of the body
+
+
+    Tensor<1, 3>
+    unit_normal(const Segment &corners)
+    {
+      const auto area = area_vector(corners);
+      return area / area.norm();
+    }
+
+
+    // The normals a surface takes at an edge: those within an angle of their mean.
+    struct NormalFan
+    {
+      Tensor<1, 3> mean;
+      double half_angle; ///< radians; negative in valleys
+    };
+
+
+    // Behind the rim of a surface its body is taken to turn by a right angle.
+    NormalFan
+    fan_of(const FeatureSurface &surface,
+           const ContactNodes::Field &x,
+           const unsigned int e,
+           const Tensor<1, 3> &along)
+    {
+      const auto &edge  = surface.get_edges()[e];
+      const auto first  = surface.segment(x, edge.faces[0]);
+      const auto n      = unit_normal(first);
+      const auto inward = 0.25 * (first[0] + first[1] + first[2] + first[3]) - x[edge.nodes[0]];
+      auto second       = cross_product_3d(along, n);
+      if (second * inward > 0.)
+        second *= -1.;
+      double side = -1.;
+      if (edge.n_faces == 2)
+        {
+          const auto other = surface.segment(x, edge.faces[1]);
+          second           = unit_normal(other);
+          side = (0.25 * (other[0] + other[1] + other[2] + other[3]) - x[edge.nodes[0]]) * n;
+        }
+      auto mean = n + second;
+      mean -= (mean * along) * along;
+      const double angle = std::acos(std::clamp(n * second, -1., 1.));
+      return {mean / mean.norm(), side < 0. ? 0.5 * angle : -0.5 * angle};
+    }
+  } // namespace
+
+
+  // Whether an edge of the body, and not one of its faces beside it, may touch what has a normal.
+  bool
+  FeatureSearch::Line::may_touch(const Tensor<1, 3> &normal) const
+  {
+    const auto along  = u / u.norm();
+    auto n            = (normal * along) * along - normal;
+    const double size = n.norm();
+    if (!(size > 0.))
+      return false;
+    n /= size;
+    auto axis = cross_product_3d(normals[0], normals[1]);
+    axis /= axis.norm();
+    return n * (normals[0] + normals[1]) > 0. &&
+           cross_product_3d(normals[0], n) * axis >= -body_off &&
+           cross_product_3d(n, normals[1]) * axis >= -body_off;
+  }
+
+
+  // The normal of both edges, given as either of its directions, if it is one that the surface
+  // takes at its edge. Edges that are nearly along each other turn it with every small motion: then
+  // it is the closest one that the surface takes.
+  bool
+  FeatureSearch::choose_normal(const ContactNodes::Field &x,
+                               const unsigned int edge,
+                               const Tensor<1, 3> &v,
+                               const double sine,
+                               Tensor<1, 3> &normal) const
+  {
+    const auto along = v / v.norm();
+    const auto fan   = fan_of(surface, x, edge, along);
+    if (normal * fan.mean < 0.)
+      normal *= -1.;
+    const double largest = std::max(0., fan.half_angle) + normals_off;
+    const double angle = std::atan2(cross_product_3d(fan.mean, normal) * along, fan.mean * normal);
+    if (std::abs(angle) <= largest)
+      return true;
+    if (sine >= nearly_along)
+      return false;
+    const double closest = std::clamp(angle, -largest, largest);
+    normal = std::cos(closest) * fan.mean + std::sin(closest) * cross_product_3d(along, fan.mean);
+    return true;
+  }
+
+
+  // The points a + s u and c + t v whose difference is along the normal, without regard to where
+  // the edges end.
+  bool
+  FeatureSearch::cross(const ContactNodes::Field &x,
+                       const Line &line,
+                       const unsigned int edge,
+                       Crossing &crossing) const
+  {
+    constexpr double least_sine = 0.02; // below, they do not cross
+
+    const auto &nodes = surface.get_edges()[edge].nodes;
+    const auto c      = x[nodes[0]];
+    const auto &u     = line.u;
+    const auto v = x[nodes[1]] - c, w = c - line.a, both = cross_product_3d(u, v);
+    crossing.sine = both.norm() / (u.norm() * v.norm());
+    if (!(crossing.sine > least_sine))
+      return false;
+    crossing.normal = both / both.norm();
+    if (!choose_normal(x, edge, v, crossing.sine, crossing.normal) ||
+        !line.may_touch(crossing.normal))
+      return false;
+    const auto v_m = cross_product_3d(v, crossing.normal),
+               u_m = cross_product_3d(u, crossing.normal);
+    crossing.s     = (w * v_m) / (u * v_m);
+    crossing.t     = -(w * u_m) / (v * u_m);
+    crossing.gap   = -(w * both) / (crossing.normal * both);
+    return true;
+  }
+
+
+  // Whether edges cross between their ends, or may do so after this step: if they slide on each
+  // other as in the last one.
+  bool
+  FeatureSearch::is_on(const View &view,
+                       const Line &line,
+                       const unsigned int e,
+                       const Crossing &crossing) const
+  {
+    constexpr double steps = 2., rounding = 1e-9;
+
+    const auto &edge = surface.get_edges()[e];
+    const double s = crossing.s, t = crossing.t;
+    const double past_s = std::max(-s, s - 1.), past_t = std::max(-t, t - 1.);
+    if (past_s <= rounding && past_t <= rounding)
+      return true;
+    if (crossing.gap < -barely_inside * surface.get_faces()[edge.faces[0]].size)
+      return false;
+    const auto q = (1. - t) * view.x[edge.nodes[0]] + t * view.x[edge.nodes[1]];
+    auto slip    = -(1. - t) * view.dx[edge.nodes[0]] - t * view.dx[edge.nodes[1]];
+    if (body.moves())
+      slip += view.dx[view.first_rigid] +
+              cross_product_3d(view.dx[view.first_rigid + 1], q - body.centre());
+    slip -= (slip * crossing.normal) * crossing.normal;
+    const double way = steps * slip.norm() / crossing.sine;
+    return past_s * line.u.norm() <= way &&
+           past_t * (view.x[edge.nodes[1]] - view.x[edge.nodes[0]]).norm() <= way;
+  }
+
+
+  std::vector<FeatureSearch::Line>
+  FeatureSearch::lines_now() const
+  {
+    const Pose pose = body.pose();
+    std::vector<Line> lines;
+    lines.reserve(features.edges.size());
+    for (unsigned int i = 0; i < features.edges.size(); ++i)
+      lines.push_back(line_of(pose, i));
+    return lines;
+  }
+
+
+  // Whether an edge of the body is past the surface and was no pair before: then it is outside of
+  // another side of the deformable body, seen through it.
+  bool
+  FeatureSearch::is_behind(const ContactPair &pair, const std::vector<ContactPair> &previous)
+  {
+    return pair.gap < -barely_inside * pair.size &&
+           !std::binary_search(previous.begin(),
+                               previous.end(),
+                               pair,
+                               [](const ContactPair &a, const ContactPair &b) {
+                                 return a.key() < b.key();
+                               });
+  }
+
+
+  void
+  FeatureSearch::find_crossings(const View &view,
+                                const std::vector<ContactPair> &previous,
+                                std::vector<ContactPair> &pairs)
+  {
+    const auto lines = lines_now();
+    for (const auto &[feature, e] : edges_of_edges)
+      {
+        const auto &edge = surface.get_edges()[e];
+        const auto &face = surface.get_faces()[edge.faces[0]];
+        const Line &line = lines[feature];
+        const auto c = view.x[edge.nodes[0]], d = view.x[edge.nodes[1]];
+        if (line.distance(0.5 * (c + d)) >
+            0.5 * (d - c).norm() + std::max(view.reach, deepest_part * face.depth))
+          continue;
+        Crossing crossing;
+        if (!cross(view.x, line, e, crossing) || crossing.gap > view.reach ||
+            crossing.gap < -deepest_part * face.depth || !is_on(view, line, e, crossing))
+          continue;
+        const auto pair = make_pair(view,
+                                    {Kind::crossing, feature, e},
+                                    {{edge.nodes[0], 1. - crossing.t}, {edge.nodes[1], crossing.t}},
+                                    crossing.normal,
+                                    crossing.gap);
+        if (!is_behind(pair, previous))
+          pairs.push_back(pair);
+      }
+  }
+
+
+  // The part of an edge that is above a face; false if there is none.
+  bool
+  FeatureSearch::stretch_over(const ContactNodes::Field &x,
+                              const Line &line,
+                              const unsigned int face,
+                              std::array<double, 2> &s) const
+  {
+    constexpr double least = 1e-6; // of the edge
+
+    const auto corners = surface.segment(x, face);
+    const auto normal  = unit_normal(corners);
+    s                  = {{0., 1.}};
+    for (unsigned int k = 0; k < 4; ++k)
+      {
+        const auto inward  = cross_product_3d(normal, corners[(k + 1) % 4] - corners[k]);
+        const double begin = (line.a - corners[k]) * inward, slope = line.u * inward;
+        if (slope > 0.)
+          s[0] = std::max(s[0], -begin / slope);
+        else if (slope < 0.)
+          s[1] = std::min(s[1], -begin / slope);
+        else if (begin < 0.)
+          return false;
+      }
+    return s[1] - s[0] > least;
+  }
+
+
+  double
+  FeatureSearch::gap_over(const ContactNodes::Field &x,
+                          const Tensor<1, 3> &p,
+                          const unsigned int face) const
+  {
+    const auto corners    = surface.segment(x, face);
+    const auto projection = project(p, corners);
+    return segment_normal(corners, projection.xi, projection.eta) * projection.offset;
+  }
+
+
+  // How far the middle of an edge over a face is closer to it than its ends are in the mean.
+  double
+  FeatureSearch::sag_over(const ContactNodes::Field &x,
+                          const Line &line,
+                          const unsigned int face,
+                          const std::array<double, 2> &stretch) const
+  {
+    const auto gap = [&](const double s) { return gap_over(x, line.a + s * line.u, face); };
+    return 0.5 * (gap(stretch[0]) + gap(stretch[1])) - gap(0.5 * (stretch[0] + stretch[1]));
+  }
+
+
+  // Where a third of an edge over a face that bulges is closest to it: at one of its ends, or where
+  // it is parallel to the face. What is at the ends of the edge over the face has other pairs.
+  double
+  FeatureSearch::closest_over(const ContactNodes::Field &x,
+                              const Line &line,
+                              const unsigned int face,
+                              const std::array<double, 2> &stretch,
+                              const unsigned int part) const
+  {
+    constexpr double from_ends = 5e-3; // of the edge over the face
+
+    const auto corners = surface.segment(x, face);
+    const auto slope   = [&](const double s) {
+      const auto foot = project(line.a + s * line.u, corners);
+      return line.u * segment_normal(corners, foot.xi, foot.eta);
+    };
+    const auto at = [&](const double third) {
+      return stretch[0] +
+             std::clamp(third / 3., from_ends, 1. - from_ends) * (stretch[1] - stretch[0]);
+    };
+    double low = at(part), high = at(part + 1.), f_low = slope(low), f_high = slope(high);
+    if (f_low >= 0.)
+      return low;
+    if (f_high <= 0.)
+      return high;
+    // The slope is nearly linear: false position, and halves where that is slow.
+    double s = low;
+    for (unsigned int i = 0; i < 60 && high - low > 1e-12; ++i)
+      {
+        s = i % 3 == 2 ? 0.5 * (low + high) : (low * f_high - high * f_low) / (f_high - f_low);
+        const double f = slope(s);
+        if (std::abs(f) <= 1e-15 * line.u.norm())
+          break;
+        (f < 0. ? low : high)     = s;
+        (f < 0. ? f_low : f_high) = f;
+      }
+    return s;
+  }
+
+
+  // What the twist of a face may add to its bulge in a step, from the last one.
+  double
+  FeatureSearch::bulge_to_come(const View &view, const unsigned int face) const
+  {
+    constexpr double steps = 4.;
+
+    const auto &nodes = surface.get_faces()[face].nodes;
+    return steps *
+           (view.dx[nodes[0]] - view.dx[nodes[1]] + view.dx[nodes[2]] - view.dx[nodes[3]]).norm();
+  }
+
+
+  void
+  FeatureSearch::find_bulges(const View &view,
+                             const std::vector<ContactPair> &previous,
+                             std::vector<ContactPair> &pairs)
+  {
+    constexpr double least_sag = 1e-9; // of the face's size: less is no bulge
+
+    const auto lines = lines_now();
+    for (const auto &[feature, f] : faces_of_edges)
+      {
+        const auto &face   = surface.get_faces()[f];
+        const auto corners = surface.segment(view.x, f);
+        const Line &line   = lines[feature];
+        const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+        double wide        = 0.;
+        for (const auto &corner : corners)
+          wide = std::max(wide, (corner - middle).norm());
+        if (line.distance(middle) > wide + std::max(view.reach, deepest_part * face.depth))
+          continue;
+        std::array<double, 2> stretch;
+        if (!line.may_touch(unit_normal(corners)) || !stretch_over(view.x, line, f, stretch) ||
+            sag_over(view.x, line, f, stretch) + bulge_to_come(view, f) < least_sag * face.size)
+          continue;
+        for (unsigned int part = 0; part < 3; ++part)
+          {
+            const double s   = closest_over(view.x, line, f, stretch, part);
+            const auto foot  = project(line.a + s * line.u, corners);
+            const auto n     = segment_normal(corners, foot.xi, foot.eta);
+            const double gap = n * foot.offset;
+            if (gap > view.reach || gap < -deepest_part * face.depth)
+              continue;
+            std::vector<std::pair<unsigned int, double>> masters;
+            for (unsigned int k = 0; k < 4; ++k)
+              masters.emplace_back(face.nodes[k], foot.N[k]);
+            const auto pair = make_pair(view, {Kind::bulge, feature, f, part}, masters, n, gap);
+            if (!is_behind(pair, previous))
+              pairs.push_back(pair);
+          }
+      }
+  }
+} // namespace akmon

@@ -1,0 +1,135 @@
+#include <akmon/contact/penalty.h>
+#include <akmon/contact/search/obstacle_search.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Least edge at each owned node of some faces, by local node number.
+    std::map<unsigned int, double>
+    node_sizes(const Discretization &discretization, const std::vector<BoundaryFace> &faces)
+    {
+      std::map<unsigned int, double> sizes;
+      for (const auto &face : faces)
+        for (unsigned int k = 0; k < 4; ++k)
+          for (const unsigned int end : {k, (k + 1) % 4})
+            if (face.nodes[end] < discretization.n_owned_nodes)
+              {
+                const double edge = (at_node(discretization.reference, face.nodes[k]) -
+                                     at_node(discretization.reference, face.nodes[(k + 1) % 4]))
+                                      .norm();
+                const auto entry = sizes.emplace(face.nodes[end], edge).first;
+                entry->second    = std::min(entry->second, edge);
+              }
+      return sizes;
+    }
+  } // namespace
+
+
+  RigidNodes::RigidNodes(const std::vector<RigidBody> &bodies)
+  {
+    for (const auto &body : bodies)
+      {
+        first.push_back(body.moves() ? n : none);
+        n += body.moves() ? 2 : 0;
+      }
+  }
+
+
+  void
+  set_plane(ContactPair &pair, const Pose &pose, const Tensor<1, 3> &x)
+  {
+    const auto R      = pose.orientation.matrix();
+    pair.plane_normal = transpose(R) * pair.normal;
+    pair.plane_offset = pair.normal * (x - pose.place) - pair.gap;
+  }
+
+
+  double
+  obstacle_gap(const RigidShape &shape,
+               const Pose &pose,
+               const ContactPair &pair,
+               const Tensor<1, 3> &x)
+  {
+    const auto R     = pose.orientation.matrix();
+    const auto X     = transpose(R) * (x - pose.place);
+    const auto point = shape.closest(X);
+    return pair.slot == 0 && point.normal * pair.plane_normal > 0. ?
+             point.distance :
+             pair.plane_normal * X - pair.plane_offset;
+  }
+
+
+  ObstacleSearch::ObstacleSearch(const Discretization &discretization,
+                                 const RigidBody &body,
+                                 const unsigned int interface)
+    : body(body)
+    , interface(interface)
+  {
+    const auto &obstacle = body.parameters();
+    std::set<types::boundary_id> ids;
+    for (const auto &surface : obstacle.slaves)
+      ids.merge(discretization.boundary_ids("Obstacles/" + obstacle.name, "Surfaces", surface));
+    faces                = discretization.faces_on(ids);
+    const auto stiffness = penalty_stiffness_of_nodes(discretization, faces);
+    for (const auto &[node, size] : node_sizes(discretization, faces))
+      slaves.push_back({node, size, stiffness.at(node)});
+  }
+
+
+  void
+  ObstacleSearch::find_pairs(const ContactNodes &nodes,
+                             const ContactNodes::Field &x,
+                             const unsigned int first_rigid,
+                             const double reach,
+                             const double travelled,
+                             std::vector<ContactPair> &pairs)
+  {
+    const auto &shape = *body.parameters().shape;
+    const Pose pose   = body.pose();
+    const auto R      = pose.orientation.matrix();
+    const auto centre = body.centre();
+    for (auto &slave : slaves)
+      {
+        const double within = std::max(reach, always_near * slave.size);
+        if (slave.clear_of - travelled > within)
+          continue;
+        ContactPair pair;
+        pair.interface   = interface;
+        pair.slave       = slave.node;
+        pair.slave_id    = nodes.id_of_local(slave.node);
+        pair.nodes[0]    = nodes.number(pair.slave_id);
+        pair.weights[0]  = 1.;
+        pair.size        = slave.size;
+        pair.stiffness   = slave.stiffness;
+        pair.place       = x[pair.nodes[0]];
+        const auto place = transpose(R) * (pair.place - pose.place);
+        parts.clear();
+        shape.nearby(place, within, parts);
+        if (parts.empty())
+          {
+            slave.clear_of = travelled + std::max(within, shape.closest(place).distance);
+            continue;
+          }
+        if (body.moves())
+          {
+            pair.add_node(first_rigid, -1.);
+            pair.add_rotation(first_rigid + 1, -1., pair.place - centre);
+          }
+        for (const auto &part : parts)
+          {
+            pair.slot   = &part - parts.data();
+            pair.gap    = part.distance;
+            pair.normal = R * part.normal;
+            set_plane(pair, pose, pair.place);
+            pairs.push_back(pair);
+          }
+      }
+  }
+} // namespace akmon
