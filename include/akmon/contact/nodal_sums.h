@@ -39,6 +39,12 @@ namespace akmon
       dealii::Tensor<1, 3> value;
     };
 
+    // A call, so that no product in a value is rounded with the sum only: those of other ranks have
+    // been rounded before.
+    [[gnu::noinline]] static void
+    add_at(const unsigned int number,
+           const dealii::Tensor<1, 3> &value,
+           ContactNodes::Field &field);
     void
     exchange_shares();
     void
@@ -87,7 +93,7 @@ namespace akmon
     for (std::size_t i = 0; i < pairs.size(); ++i)
       for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
         if (const unsigned int number = pairs[i]->nodes[k]; number < nodes.n_owned())
-          others_share[number] ? share(i, k) : field.add(number, value(i, k));
+          others_share[number] ? share(i, k) : add_at(number, value(i, k), field);
     add_shares(field);
     if (!of_common.empty())
       add_to_common_nodes(field);

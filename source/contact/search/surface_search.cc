@@ -133,13 +133,13 @@ namespace akmon
 
 
   // Where ranks have slaves, with a margin within which the middle is of every face in whose box,
-  // widened by the radius, a slave may be, and of the neighbours of such faces (whose normals count
-  // at edges and vertices).
+  // widened by the radius, a slave may be, of the neighbours that it may slide to, and of theirs,
+  // whose normals count at edges and vertices.
   RankRegions
   SurfaceSearch::regions_of_slaves(const NodalVector &x) const
   {
     const double margin = search_radius +
-                          1.5 * largest_diagonal(master_faces, x, discretization.communicator());
+                          2.5 * largest_diagonal(master_faces, x, discretization.communicator());
 
     RankRegions regions;
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
