@@ -202,7 +202,7 @@ namespace akmon
                                  pair->is_touch()                   ? of_touches :
                                  pair->interface >= contacts.size() ? of_rigid :
                                                                       of_faces;
-        const bool only_closes = pair->is_touch() && round > many_rounds;
+        const bool only_closes = (pair->is_touch() || pair->of_edges) && round > many_rounds;
         const double change    = curvature - pair->curvature;
         const double excess    = (only_closes ? std::max(0., -change) : std::abs(change)) /
                               (pair->size * tolerance);
