@@ -136,18 +136,22 @@ namespace akmon
   // The curvature that a solution has found is what the next one counts on, and what further
   // rounds would add to it: the secant through this round and the one before tells how much of a
   // change comes back. Where it comes back with the other sign less of it is more: rounds would
-  // overshoot, or close and open the pair in turns.
+  // overshoot, or close and open the pair in turns. Where most of it comes back, others may have
+  // their part in it, unless it is the same part round by round.
   void
   Contact::count_on(ContactPair &pair, const double curvature)
   {
     constexpr double largest_return = 0.5;  // beyond, it is not the pair's own motion that counts
     constexpr double least_return   = -20.; // the same
+    constexpr double slowest_return = 0.99, steady = 0.05;
 
     const double change  = curvature - pair.curvature;
     const double returns = pair.correction != 0. ? 1. + (change - pair.change) / pair.correction :
                                                    0.;
     pair.change          = change;
-    const bool is_own    = returns < largest_return && returns > least_return;
+    const bool is_steady = returns < slowest_return && std::abs(returns - pair.returns) < steady;
+    const bool is_own    = (returns < largest_return || is_steady) && returns > least_return;
+    pair.returns         = returns;
     pair.correction      = is_own ? change / (1. - returns) : change;
     pair.curvature += pair.correction;
   }
@@ -163,10 +167,10 @@ namespace akmon
                            const unsigned int round)
   {
     // Of the cell size. Rigid shapes are exact: so are gaps from them; normals of edges turn fast.
-    constexpr double of_faces = 1e-7, of_features = 1e-8, of_edges = 1e-10, of_rigid = 1e-12,
+    constexpr double of_faces = 1e-7, of_features = 1e-9, of_edges = 1e-10, of_rigid = 1e-12,
                      of_touches        = 1e-11;
     constexpr double least_of_features = 0.1; // and of rims
-    constexpr unsigned int many_rounds = 20; // rims that closed and opened in turns only close then
+    constexpr unsigned int many_rounds = 20;  // what closed and opened in turns only closes then
 
     const WorkTime timing(seconds_of_work);
     const auto &dx_contact = coupled->increments();
@@ -200,7 +204,7 @@ namespace akmon
                                  pair->is_touch()                   ? of_touches :
                                  pair->interface >= contacts.size() ? of_rigid :
                                                                       of_faces;
-        const bool only_closes = pair->is_touch() && round > many_rounds;
+        const bool only_closes = (pair->is_touch() || pair->of_edges) && round > many_rounds;
         const double change    = curvature - pair->curvature;
         const double excess    = (only_closes ? std::max(0., -change) : std::abs(change)) /
                               (pair->size * tolerance);

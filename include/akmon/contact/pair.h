@@ -74,6 +74,7 @@ namespace akmon
     double reached_gap = 0.;             ///< of rigid bodies, where the step leads; length
     double curvature   = 0.;             ///< second-order part of the gap the step reaches; length
     double change = 0., correction = 0.; ///< what it lacked last in this step, and got; length
+    double returns      = 0.;            ///< part of a correction that the next round lacked again
     bool settled        = false;         ///< it lacked nothing that counts
     bool wanders        = false;         ///< the step leads to another face
     double target_gap   = 0.;            ///< gap of which no more may be lost in this step; length

@@ -10,6 +10,9 @@ namespace akmon
 
   namespace
   {
+    constexpr double in_front = -1e-6; // of the cell size, for rounding: else there is no corner
+
+
     // Pairs of one slave stand together, from the first one on.
     void
     add_to_corner(const std::size_t first, ContactPair pair, std::vector<ContactPair> &pairs)
@@ -32,8 +35,7 @@ namespace akmon
                                   Partner partner,
                                   std::vector<ContactPair> &pairs)
   {
-    constexpr double part     = 0.25;  // of the reach: what slaves slide in a step at most
-    constexpr double in_front = -1e-6; // of the cell size, for rounding: else no valley
+    constexpr double part = 0.25; // of the reach: what slaves slide in a step at most
 
     if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
       return;
@@ -73,7 +75,7 @@ namespace akmon
 
 
   // Further faces of a corner that the slave may run into: turned against the first partner, with
-  // the slave in front of them.
+  // the slave in front of them. Behind the face on the other side of a ridge it is outside.
   void
   SurfaceSearch::add_corner_pairs(const ContactNodes::Field &x,
                                   const double reach,
@@ -98,7 +100,8 @@ namespace akmon
           continue;
         partner.projection = project(point, segment(x, masters[partner.face]));
         if (partner.projection.feature == Projection::Feature::face &&
-            partner.projection.offset.norm() <= reach && complete(x, slave, partner))
+            partner.projection.offset.norm() <= reach && complete(x, slave, partner) &&
+            partner.gap >= in_front * slaves[slave].size)
           add_to_corner(first, make_pair(x, slave, partner), pairs);
       }
   }

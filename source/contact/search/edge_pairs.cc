@@ -12,19 +12,10 @@ namespace akmon
 
   namespace
   {
-    constexpr double corner       = 0.1;  // of an edge: so close to a corner nodes meet faces
-    constexpr double least_sine   = 0.26; // between edges, 15 degrees: below, nodes and edges meet
-    constexpr double first_sine   = 0.34; // the same of new pairs, 20 degrees
-    constexpr double first_inside = 0.02; // sine: how far new pairs' normals are off those of faces
-
-
-    // Whether a part of an edge is on it. A corner that stands on an edge, or slides over it, is a
-    // node's pair.
-    bool
-    is_on(const FeatureEdge &edge, const double part)
-    {
-      return part >= (edge.end[0] ? corner : 0.) && 1. - part >= (edge.end[1] ? corner : 0.);
-    }
+    constexpr double least_sine = 0.2;  // between edges, 12 degrees: below, nodes and edges meet
+    constexpr double first_sine = 0.22; // the same of new pairs, 13 degrees
+    constexpr double tilted     = 0.17; // sine: a normal may be off the range of an edge's so far
+    constexpr double steps      = 2.;   // that edges may slide beyond their ends until they meet
 
 
     Tensor<1, 3>
@@ -34,38 +25,106 @@ namespace akmon
     }
 
 
-    // Whether a normal of an edge is one that the surface takes as it turns about it, and how far
-    // off those of the faces on its two sides: sine of the angle. The normal of a face belongs to
-    // the nodes on it.
-    bool
-    in_range(const ContactNodes::Field &x,
-             const FeatureEdge &edge,
-             const Tensor<1, 3> &normal,
-             const double inside = 0.)
+    // How far a part of an edge is beyond its ends.
+    double
+    past_end(const double part)
     {
-      const auto corner = [&](const unsigned int f, const unsigned int k) {
-        return x[edge.corners[f][k % 4]];
+      return std::max({0., -part, part - 1.});
+    }
+
+
+    // An edge's direction, counter-clockwise around its first face, and the normals of both.
+    struct Wedge
+    {
+      Tensor<1, 3> along;
+      std::array<Tensor<1, 3>, 2> normals;
+
+      Wedge(const ContactNodes::Field &x, const FeatureEdge &edge)
+      {
+        const auto corner = [&](const unsigned int f, const unsigned int k) {
+          return x[edge.corners[f][k % 4]];
+        };
+        const auto is_end = [&](const unsigned int k) {
+          const unsigned int node = edge.corners[0][k % 4];
+          return node == edge.nodes[0] || node == edge.nodes[1];
+        };
+        unsigned int k = 0; // the edge starts there in the first face
+        while (!is_end(k) || !is_end(k + 1))
+          ++k;
+        along = corner(0, k + 1) - corner(0, k);
+        along /= along.norm();
+        for (unsigned int f = 0; f < edge.n_faces; ++f)
+          {
+            normals[f] = area_vector({{corner(f, 0), corner(f, 1), corner(f, 2), corner(f, 3)}});
+            normals[f] /= normals[f].norm();
+          }
+        // Beyond a rim the surface turns as it did initially.
+        if (edge.n_faces == 1)
+          normals[1] = std::cos(edge.angle) * normals[0] +
+                       std::sin(edge.angle) * cross_product_3d(along, normals[0]);
+      }
+
+      // Whether a normal is one that the surface takes as it turns about the edge. One of a face
+      // that dips a little below the edge counts, too: whatever comes past the edge is in the body.
+      bool
+      takes(const Tensor<1, 3> &normal) const
+      {
+        return normal * (normals[0] + normals[1]) > 0. &&
+               cross_product_3d(normals[0], normal) * along >= -tilted &&
+               cross_product_3d(normal, normals[1]) * along >= -tilted;
+      }
+
+      // Whether a place beside the edge is over one of its faces, no higher than a length.
+      bool
+      is_under(const Tensor<1, 3> &from_edge, const double height) const
+      {
+        const std::array<Tensor<1, 3>, 2> inward{
+          {cross_product_3d(normals[0], along), cross_product_3d(along, normals[1])}};
+        for (unsigned int f = 0; f < 2; ++f)
+          if (from_edge * inward[f] > 0. && from_edge * normals[f] <= height)
+            return true;
+        return false;
+      }
+    };
+
+
+    // How far edges that cross do so beyond corners, where there is nothing that could be hit.
+    double
+    past_corners(const ContactNodes::Field &x,
+                 const FeatureEdge &slave,
+                 const FeatureEdge &master,
+                 const double s,
+                 const double t)
+    {
+      const auto past = [&](const FeatureEdge &edge, const double part) {
+        return edge.end[part > 0.5] ?
+                 past_end(part) * (x[edge.nodes[1]] - x[edge.nodes[0]]).norm() :
+                 0.;
       };
-      unsigned int k = 0; // the edge starts there in the first face
-      while (edge.corners[0][k] != edge.nodes[0] && edge.corners[0][k] != edge.nodes[1])
-        ++k;
-      if (edge.corners[0][(k + 1) % 4] != edge.nodes[0] &&
-          edge.corners[0][(k + 1) % 4] != edge.nodes[1])
-        k = 3;
-      auto along = corner(0, k + 1) - corner(0, k);
-      along /= along.norm();
-      const auto face_normal = [&](const unsigned int f) {
-        const auto area = area_vector({{corner(f, 0), corner(f, 1), corner(f, 2), corner(f, 3)}});
-        return area / area.norm();
-      };
-      const auto first = face_normal(0);
-      // Beyond a rim the surface turns as it did initially.
-      const auto second = edge.n_faces == 2 ?
-                            face_normal(1) :
-                            std::cos(edge.angle) * first +
-                              std::sin(edge.angle) * cross_product_3d(along, first);
-      return normal * (first + second) > 0. && cross_product_3d(first, normal) * along >= inside &&
-             cross_product_3d(normal, second) * along >= inside;
+      return past(slave, s) + past(master, t);
+    }
+
+
+    // Whether a crossing is left to the corner of a body that it is beside: to the node there,
+    // where that is on a face. Else what rounding leaves of an overlap would stop corners that
+    // slide over an edge.
+    bool
+    is_at_corner(const ContactNodes::Field &x,
+                 const FeatureEdge &edge,
+                 const double part,
+                 const FeatureEdge &other,
+                 const Wedge &of_other)
+    {
+      constexpr double beside = 0.1, rounding = 1e-10; // of the cell size
+
+      const unsigned int end = part > 0.5;
+      if (!edge.end[end])
+        return false;
+      const auto to_corner = x[edge.nodes[end]] - point_on(x, edge, part);
+      const double size = std::min(edge.size, other.size), distance = to_corner.norm();
+      return distance <= beside * size &&
+             of_other.is_under(to_corner,
+                               distance <= barely_inside * size ? distance : rounding * size);
     }
   } // namespace
 
@@ -104,20 +163,49 @@ namespace akmon
     if (std::abs(crossing.gap) >
         std::max(reach, deepest_part * std::min(slave.depth, master.depth)))
       return false;
-    if (!in_range(x, master, crossing.normal))
+    const Wedge of_master(x, master), of_slave(x, slave);
+    if (!of_master.takes(crossing.normal))
       {
         crossing.normal *= -1.;
         crossing.gap *= -1.;
-        if (!in_range(x, master, crossing.normal))
+        if (!of_master.takes(crossing.normal))
           return false;
       }
-    return crossing.gap <= reach && in_range(x, slave, -crossing.normal);
+    return crossing.gap <= reach && of_slave.takes(-crossing.normal) &&
+           !is_at_corner(x, slave, crossing.s, master, of_master) &&
+           !is_at_corner(x, master, crossing.t, slave, of_slave);
   }
 
 
-  // Edges meet if their closest points are on both of them; or close beyond a node where the edge
-  // goes on, which may be before both parts of a dent; or if the last increment, repeated, leads
-  // them there, past each other: then they are where they would come through.
+  // Whether edges meet between their ends, or may do so after this step if they slide on each other
+  // as in the last one. Above a node where an edge goes on and turns a little, the crossings with
+  // both its parts may be beyond it, by less than the gap.
+  bool
+  EdgeSearch::are_on(const ContactNodes::Field &x,
+                     const ContactNodes::Field &next,
+                     const FeatureEdge &slave,
+                     const FeatureEdge &master,
+                     const EdgeCrossing &crossing)
+  {
+    if (past_end(crossing.s) == 0. && past_end(crossing.t) == 0.)
+      return true;
+    if (crossing.gap < -barely_inside * std::min(slave.size, master.size))
+      return false;
+    const auto moved = [&](const FeatureEdge &edge, const double part) {
+      return point_on(next, edge, part) - point_on(x, edge, part);
+    };
+    auto slip = moved(slave, crossing.s) - moved(master, crossing.t);
+    slip -= (slip * crossing.normal) * crossing.normal;
+    const auto is_near = [&](const FeatureEdge &edge, const double part) {
+      const double way = steps * slip.norm() + (edge.end[part > 0.5] ? 0. : std::abs(crossing.gap));
+      return past_end(part) * (x[edge.nodes[1]] - x[edge.nodes[0]]).norm() <= way / crossing.sine;
+    };
+    return is_near(slave, crossing.s) && is_near(master, crossing.t);
+  }
+
+
+  // Edges meet where they are, or where the last increment, repeated, leads them past each other:
+  // then where they would come through.
   bool
   EdgeSearch::meet(const ContactNodes::Field &x,
                    const ContactNodes::Field &next,
@@ -126,26 +214,12 @@ namespace akmon
                    const double reach,
                    EdgeCrossing &crossing) const
   {
-    if (cross(x, slave, master, crossing))
-      {
-        const double further = reach / crossing.sine;
-        const bool on        = is_on(slave, crossing.s) && is_on(master, crossing.t);
-        bool before          = true;
-        for (const auto &[edge, part] :
-             {std::make_pair(&slave, crossing.s), std::make_pair(&master, crossing.t)})
-          {
-            const double length = (x[edge->nodes[1]] - x[edge->nodes[0]]).norm();
-            for (unsigned int end = 0; end < 2; ++end)
-              before = before && (end == 0 ? part : 1. - part) * length >=
-                                   (edge->end[end] ? corner * length : -further);
-          }
-        if (before && are_opposed(x, slave, master, reach, crossing) &&
-            (on || crossing.gap >= -barely_inside * std::min(slave.size, master.size)))
-          return true;
-      }
-    if (!cross(next, slave, master, crossing) || !is_on(slave, crossing.s) ||
-        !is_on(master, crossing.t) || !are_opposed(next, slave, master, reach, crossing) ||
-        crossing.gap > 0.)
+    if (cross(x, slave, master, crossing) && are_opposed(x, slave, master, reach, crossing) &&
+        are_on(x, next, slave, master, crossing))
+      return true;
+    if (!cross(next, slave, master, crossing) ||
+        !are_opposed(next, slave, master, reach, crossing) || crossing.gap > 0. ||
+        past_end(crossing.s) > 0. || past_end(crossing.t) > 0.)
       return false;
     const auto offset = point_on(x, slave, crossing.s) - point_on(x, master, crossing.t);
     crossing.gap      = crossing.normal * offset;
@@ -157,10 +231,13 @@ namespace akmon
   bool
   EdgeSearch::gap_at(const ContactNodes::Field &x, const ContactPair &pair, double &gap) const
   {
+    const FeatureEdge &slave = slaves[pair.row], &master = masters[pair.face];
     EdgeCrossing crossing;
-    if (!cross(x, slaves[pair.row], masters[pair.face], crossing))
+    if (!cross(x, slave, master, crossing))
       return false;
     gap = crossing.normal * pair.normal > 0. ? crossing.gap : -crossing.gap;
+    if (const double past = past_corners(x, slave, master, crossing.s, crossing.t); past > 0.)
+      gap = std::max(gap, past);
     return true;
   }
 
@@ -187,7 +264,7 @@ namespace akmon
     std::copy(b.nodes.begin(), b.nodes.end(), pair.nodes.begin() + 2);
     pair.weights   = {{1. - s, s, t - 1., -t}};
     pair.normal    = crossing.normal;
-    pair.gap       = crossing.gap;
+    pair.gap       = past_corners(x, a, b, s, t) > 0. ? std::max(0., crossing.gap) : crossing.gap;
     pair.size      = std::min(a.size, b.size);
     pair.stiffness = std::min(a.stiffness, b.stiffness);
     pair.place     = point_on(x, a, s);
@@ -196,7 +273,12 @@ namespace akmon
     const double couple = has_friction ? offset.norm() :
                                          (offset - (offset * pair.normal) * pair.normal).norm();
     if (couple > 1e-14 * pair.size)
-      set_lever({{x[a.nodes[0]], x[a.nodes[1]], x[b.nodes[0]], x[b.nodes[1]]}}, 0, offset, pair);
+      {
+        // Each edge turns about its own middle: bodies that approach each other do not.
+        const auto r_a = 0.5 * (x[a.nodes[1]] - x[a.nodes[0]]),
+                   r_b = 0.5 * (x[b.nodes[1]] - x[b.nodes[0]]);
+        set_lever({{-r_a, r_a, -r_b, r_b}}, 0, offset, pair);
+      }
     return pair;
   }
 
@@ -223,9 +305,7 @@ namespace akmon
         // Edges that are past each other and were not a pair before are none: a corner stands on a
         // face, beside an edge that another edge of the corner crosses.
         const bool is_new = known == previous.end() || known->key() != pair.key();
-        if (is_new && (pair.gap < -barely_inside * pair.size || crossing.sine < first_sine ||
-                       !in_range(x, masters[master], crossing.normal, first_inside) ||
-                       !in_range(x, slaves[slave], -crossing.normal, first_inside)))
+        if (is_new && (pair.gap < -barely_inside * pair.size || crossing.sine < first_sine))
           continue;
         pairs.push_back(pair);
       }

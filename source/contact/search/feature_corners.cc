@@ -307,12 +307,7 @@ namespace akmon
     Crossing crossing;
     if (!cross(x, line, record.partner, crossing))
       return false;
-    // Beyond an end there is nothing that could be hit.
-    const auto &edge = surface.get_edges()[record.partner];
-    const auto past  = [](const double part) { return std::max({0., -part, part - 1.}); };
-    const double off = past(crossing.s) * line.u.norm() +
-                       past(crossing.t) * (x[edge.nodes[1]] - x[edge.nodes[0]]).norm();
-    gap = std::max(crossing.gap, off > 0. ? off : crossing.gap);
+    gap = gap_of(x, line, record.partner, crossing);
     return true;
   }
 } // namespace akmon

@@ -15,6 +15,7 @@ namespace akmon
     constexpr double nearly_along = 0.34; // the same: below, the normal of both is hardly known
     constexpr double normals_off  = 0.35; // radians: of a touching edge from those of the surface
     constexpr double body_off     = 0.1;  // sine: the same from those of the body
+    constexpr double end_rounding = 1e-9; // of an edge: no further beyond its end is at it
 
 
     Tensor<1, 3>
@@ -22,6 +23,14 @@ namespace akmon
     {
       const auto area = area_vector(corners);
       return area / area.norm();
+    }
+
+
+    // How far a part of an edge is beyond its ends.
+    double
+    past_end(const double part)
+    {
+      return std::max({0., -part, part - 1.});
     }
 
 
@@ -136,6 +145,20 @@ namespace akmon
   }
 
 
+  // Beyond an end there is nothing that could be hit.
+  double
+  FeatureSearch::gap_of(const ContactNodes::Field &x,
+                        const Line &line,
+                        const unsigned int e,
+                        const Crossing &crossing) const
+  {
+    const auto &nodes = surface.get_edges()[e].nodes;
+    const double off  = past_end(crossing.s) * line.u.norm() +
+                       past_end(crossing.t) * (x[nodes[1]] - x[nodes[0]]).norm();
+    return off > 0. ? std::max(crossing.gap, off) : crossing.gap;
+  }
+
+
   // Whether edges cross between their ends, or may do so after this step: if they slide on each
   // other as in the last one.
   bool
@@ -144,12 +167,12 @@ namespace akmon
                        const unsigned int e,
                        const Crossing &crossing) const
   {
-    constexpr double steps = 2., rounding = 1e-9;
+    constexpr double steps = 2.;
 
-    const auto &edge = surface.get_edges()[e];
-    const double s = crossing.s, t = crossing.t;
-    const double past_s = std::max(-s, s - 1.), past_t = std::max(-t, t - 1.);
-    if (past_s <= rounding && past_t <= rounding)
+    const auto &edge    = surface.get_edges()[e];
+    const double t      = crossing.t;
+    const double past_s = past_end(crossing.s), past_t = past_end(t);
+    if (past_s <= end_rounding && past_t <= end_rounding)
       return true;
     if (crossing.gap < -barely_inside * surface.get_faces()[edge.faces[0]].size)
       return false;
@@ -211,11 +234,13 @@ namespace akmon
         if (!cross(view.x, line, e, crossing) || crossing.gap > view.reach ||
             crossing.gap < -deepest_part * face.depth || !is_on(view, line, e, crossing))
           continue;
+        // Beyond an end nothing is inside.
+        const bool past = std::max(past_end(crossing.s), past_end(crossing.t)) > end_rounding;
         const auto pair = make_pair(view,
                                     {Kind::crossing, feature, e},
                                     {{edge.nodes[0], 1. - crossing.t}, {edge.nodes[1], crossing.t}},
                                     crossing.normal,
-                                    crossing.gap);
+                                    past ? std::max(0., crossing.gap) : crossing.gap);
         if (!is_behind(pair, previous))
           pairs.push_back(pair);
       }

@@ -89,6 +89,48 @@ namespace akmon
   }
 
 
+  // Whether a slave that is behind the mean normal of an edge or vertex is outside nevertheless: in
+  // front of one of the faces that share it, where none of them rises from another. That face does
+  // not look at the slave, and this one is on another side of the body.
+  bool
+  SurfaceSearch::is_beside(const ContactNodes::Field &x, const Partner &partner) const
+  {
+    constexpr double nearly_flat = 0.1, clearly = 0.2; // sines
+    constexpr double at_border = 1. - 1e-12;           // in xi, eta
+
+    const auto &projection = partner.projection;
+    if (partner.gap >= 0. || projection.feature == Projection::Feature::face ||
+        std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
+      return false;
+    const auto &face      = masters[partner.face];
+    const unsigned int a  = face.nodes[projection.where];
+    const unsigned int b  = face.nodes[(projection.where + 1) % 4];
+    const double at_least = clearly * projection.offset.norm();
+    std::vector<Segment> around;
+    for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
+      {
+        const auto &nodes = masters[faces_at[i]].nodes;
+        if (projection.feature == Projection::Feature::vertex ||
+            std::find(nodes.begin(), nodes.end(), b) != nodes.end())
+          around.push_back(segment(x, masters[faces_at[i]]));
+      }
+    bool in_front = false;
+    for (const auto &one : around)
+      {
+        const auto area   = area_vector(one);
+        const auto normal = area / area.norm();
+        in_front          = in_front || normal * projection.offset > at_least;
+        for (const auto &other : around)
+          {
+            const auto way = 0.25 * (other[0] + other[1] + other[2] + other[3]) - x[a];
+            if (normal * way > nearly_flat * way.norm())
+              return false;
+          }
+      }
+    return in_front;
+  }
+
+
   // Normal and gap of a partner whose closest point is known; false where it is none: too far
   // outside or inside, or beyond the rim.
   bool
@@ -102,7 +144,8 @@ namespace akmon
     bool on_rim;
     partner.normal = feature_normal(x, partner, on_rim);
     partner.gap    = partner.normal * partner.projection.offset;
-    if (partner.gap > search_radius || partner.gap < -deepest_part * masters[partner.face].depth)
+    if (partner.gap > search_radius || partner.gap < -deepest_part * masters[partner.face].depth ||
+        is_beside(x, partner))
       return false;
     if (!on_rim)
       return true;

@@ -195,7 +195,7 @@ namespace
                       shape = "  set Shape = box\n  subsection Box\n"
                               "   set Size = 0.6, 0.55, 0.2\n  end\n";
     for (const auto &[solver, tolerance, of_force] :
-         {std::make_tuple("decoupled", 1e-14, 1e-8), std::make_tuple("coupled", 5e-7, 1e-6)})
+         {std::make_tuple("decoupled", 1e-14, 1e-8), std::make_tuple("coupled", 2e-7, 1e-6)})
       {
         const std::vector<std::string> overrides{std::string("Contact solver/Type=") + solver};
         const Table meshed = run(slab + held + tool(path + file) + every_step, overrides),
@@ -203,6 +203,12 @@ namespace
         std::cout << "  " << solver << ": penetration " << largest(meshed["max_penetration_rel"])
                   << std::endl;
         EXPECT_LT(largest(meshed["max_penetration_rel"]), tolerance);
+        // In a few steps the gaps do not settle in the rounds there are.
+        const auto &depths = meshed["max_penetration_rel"];
+        EXPECT_LE(std::count_if(depths.begin(),
+                                depths.end(),
+                                [](const double depth) { return depth > 2e-9; }),
+                  10);
         // Later nodes come to lie on sharp edges, whose normal rounding decides.
         for (const std::size_t i : exact.rows_between(0., 0.0135))
           EXPECT_NEAR(meshed["tool.force_z"][i],

@@ -130,6 +130,12 @@ namespace akmon
                 const FeatureEdge &master,
                 const double reach,
                 EdgeCrossing &crossing);
+    static bool
+    are_on(const ContactNodes::Field &x,
+           const ContactNodes::Field &next,
+           const FeatureEdge &slave,
+           const FeatureEdge &master,
+           const EdgeCrossing &crossing);
     bool
     meet(const ContactNodes::Field &x,
          const ContactNodes::Field &next,

@@ -201,6 +201,11 @@ namespace akmon
           const Line &line,
           const unsigned int edge,
           Crossing &crossing) const;
+    double
+    gap_of(const ContactNodes::Field &x,
+           const Line &line,
+           const unsigned int edge,
+           const Crossing &crossing) const;
     bool
     choose_normal(const ContactNodes::Field &x,
                   const unsigned int edge,

@@ -278,6 +278,8 @@ namespace akmon
     dealii::Tensor<1, 3>
     face_normal(const ContactNodes::Field &x, const Partner &partner) const;
     bool
+    is_beside(const ContactNodes::Field &x, const Partner &partner) const;
+    bool
     complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
     ContactPair
     make_pair(const ContactNodes::Field &x, const unsigned int slave, const Partner &partner) const;
