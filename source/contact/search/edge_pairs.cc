@@ -105,6 +105,14 @@ namespace akmon
     }
 
 
+    // From a part of an edge to the corner of the body where the edge ends, on the same side.
+    Tensor<1, 3>
+    to_corner(const ContactNodes::Field &x, const FeatureEdge &edge, const double part)
+    {
+      return x[edge.nodes[part > 0.5]] - point_on(x, edge, part);
+    }
+
+
     // Whether a crossing is left to the corner of a body that it is beside: to the node there,
     // where that is on a face. Else what rounding leaves of an overlap would stop corners that
     // slide over an edge.
@@ -117,14 +125,31 @@ namespace akmon
     {
       constexpr double beside = 0.1, rounding = 1e-10; // of the cell size
 
-      const unsigned int end = part > 0.5;
-      if (!edge.end[end])
+      if (!edge.end[part > 0.5])
         return false;
-      const auto to_corner = x[edge.nodes[end]] - point_on(x, edge, part);
-      const double size = std::min(edge.size, other.size), distance = to_corner.norm();
+      const auto way    = to_corner(x, edge, part);
+      const double size = std::min(edge.size, other.size), distance = way.norm();
       return distance <= beside * size &&
-             of_other.is_under(to_corner,
-                               distance <= barely_inside * size ? distance : rounding * size);
+             of_other.is_under(way, distance <= barely_inside * size ? distance : rounding * size);
+    }
+
+
+    // Whether corners of both bodies are where their edges cross: their nodes meet, beyond the rims
+    // of surfaces too, as far as these hold them.
+    bool
+    are_at_corners(const ContactNodes::Field &x,
+                   const FeatureEdge &slave,
+                   const FeatureEdge &master,
+                   const EdgeCrossing &crossing,
+                   const double rim_tolerance)
+    {
+      const bool at_rims = slave.n_faces == 1 && master.n_faces == 1;
+      const double far   = std::min(slave.size, master.size) *
+                         (at_rims ? rim_tolerance : barely_inside);
+      const auto is_near = [&](const FeatureEdge &edge, const double part) {
+        return edge.end[part > 0.5] && to_corner(x, edge, part).norm() <= far;
+      };
+      return is_near(slave, crossing.s) && is_near(master, crossing.t);
     }
   } // namespace
 
@@ -158,7 +183,7 @@ namespace akmon
                           const FeatureEdge &slave,
                           const FeatureEdge &master,
                           const double reach,
-                          EdgeCrossing &crossing)
+                          EdgeCrossing &crossing) const
   {
     if (std::abs(crossing.gap) >
         std::max(reach, deepest_part * std::min(slave.depth, master.depth)))
@@ -172,6 +197,7 @@ namespace akmon
           return false;
       }
     return crossing.gap <= reach && of_slave.takes(-crossing.normal) &&
+           !are_at_corners(x, slave, master, crossing, rim_tolerance) &&
            !is_at_corner(x, slave, crossing.s, master, of_master) &&
            !is_at_corner(x, master, crossing.t, slave, of_slave);
   }

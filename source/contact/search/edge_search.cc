@@ -75,6 +75,7 @@ namespace akmon
     , interface(interface)
     , one_surface(contact.slaves == contact.masters)
     , has_friction(contact.friction.static_coefficient > 0.)
+    , rim_tolerance(contact.rim_tolerance)
   {
     const auto faces = discretization.faces_on(
       discretization.boundary_ids("Contact/" + contact.name, "Slave", "all"));
@@ -122,7 +123,7 @@ namespace akmon
     std::set<types::global_cell_index> on_surface;
     for (const auto &face : surface)
       on_surface.insert(face.id);
-    NodalVector n_at_node = discretization.make_vector();
+    NodalVector n_at_node = discretization.make_vector(), ways = discretization.make_vector();
     std::vector<OwnEdge> result;
     for (auto begin = edges.begin(); begin != edges.end();)
       {
@@ -151,16 +152,27 @@ namespace akmon
         if (edge.edge.n_faces == 0 || edge.edge.angle < least_angle)
           continue;
         edge.nodes = first->nodes;
-        for (const unsigned int node : edge.nodes)
-          if (node < discretization.n_owned_nodes)
-            n_at_node.local_element(3 * node) += 1.;
+        auto way   = at_node(discretization.reference, edge.nodes[1]) -
+                   at_node(discretization.reference, edge.nodes[0]);
+        way /= way.norm();
+        for (unsigned int end = 0; end < 2; ++end)
+          if (const unsigned int node = edge.nodes[end]; node < discretization.n_owned_nodes)
+            {
+              n_at_node.local_element(3 * node) += 1.;
+              for (unsigned int d = 0; d < 3; ++d)
+                ways.local_element(3 * node + d) += (end == 0 ? 1. : -1.) * way[d];
+            }
         if (edge.nodes[0] < discretization.n_owned_nodes)
           result.push_back(edge);
       }
     n_at_node.update_ghost_values();
+    ways.update_ghost_values();
+    // Two edges that turn as sharply as the surface does meet in a corner.
+    const double straight = 2. * std::sin(0.5 * least_angle);
     for (auto &edge : result)
       for (unsigned int end = 0; end < 2; ++end)
-        edge.edge.end[end] = n_at_node.local_element(3 * edge.nodes[end]) != 2.;
+        edge.edge.end[end] = n_at_node.local_element(3 * edge.nodes[end]) != 2. ||
+                             at_node(ways, edge.nodes[end]).norm() > straight;
     return result;
   }
 

@@ -341,6 +341,25 @@ end
                       expect_exact(history, "crossed bricks");
                       EXPECT_GT(largest_of(history["active_pairs"]), 0.);
                     });
+    // The same bricks as planks, flat across each other.
+    expect_one_hash({"crossed_bricks",
+                     {"Time/End=4",
+                      "Bodies/lower/Rotation angle=0",
+                      "Bodies/upper/Rotation angle=0",
+                      "Bodies/upper/Position=0.2, 0.1, 1.02",
+                      "Bodies/lower/Box/Size=4, 1, 1",
+                      "Bodies/upper/Box/Size=1, 4, 1",
+                      "Bodies/lower/Box/Cells=3, 1, 2",
+                      "Bodies/upper/Box/Cells=1, 3, 2"}},
+                    3,
+                    {"Output/Fields interval=0"},
+                    [](const std::string &directory) {
+                      const Table history(directory + "/history.csv");
+                      report("planks: penetration over h",
+                             largest_of(history["max_penetration_rel"]));
+                      EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-9);
+                      EXPECT_GT(largest_of(history["active_pairs"]), 3.);
+                    });
   }
 
 

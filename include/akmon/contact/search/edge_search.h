@@ -124,12 +124,12 @@ namespace akmon
           const FeatureEdge &slave,
           const FeatureEdge &master,
           EdgeCrossing &crossing) const;
-    static bool
+    bool
     are_opposed(const ContactNodes::Field &x,
                 const FeatureEdge &slave,
                 const FeatureEdge &master,
                 const double reach,
-                EdgeCrossing &crossing);
+                EdgeCrossing &crossing) const;
     static bool
     are_on(const ContactNodes::Field &x,
            const ContactNodes::Field &next,
@@ -152,6 +152,7 @@ namespace akmon
     const Discretization &discretization;
     const unsigned int interface;
     const bool one_surface, has_friction;
+    const double rim_tolerance; ///< of the cell size
     std::vector<OwnEdge> own_slaves, own_masters;
     bool exist = false; ///< on both sides, on any rank
 
