@@ -1,6 +1,6 @@
 #pragma once
 
-#include <akmon/contact/face_geometry.h>
+#include <akmon/contact/search/face_geometry.h>
 #include <akmon/simulation.h>
 
 #include <algorithm>
