@@ -154,15 +154,16 @@ namespace akmon
   {
     const MPI_Comm communicator = discretization.communicator();
     const unsigned int me       = Utilities::MPI::this_mpi_process(communicator);
-    RankRegions regions         = regions_of_slaves(x);
-
+    const bool alone            = Utilities::MPI::n_mpi_processes(communicator) == 1;
+    RankRegions regions         = alone ? RankRegions() : regions_of_slaves(x);
     std::map<unsigned int, std::vector<FaceMessage>> outgoing;
+    const std::vector<unsigned int> only_here = {me};
     for (const auto &face : master_faces)
       if (face.owned)
         {
           const auto corners = segment_of(face, x);
-          const auto &ranks  = regions.at(0.25 *
-                                         (corners[0] + corners[1] + corners[2] + corners[3]));
+          const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+          const auto &ranks  = alone ? only_here : regions.at(middle);
           if (ranks.empty())
             continue;
           FaceMessage message{face.id,
