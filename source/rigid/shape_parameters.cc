@@ -124,10 +124,11 @@ namespace akmon
           for (auto &vertex : mesh.vertices)
             vertex *= scale;
           ShapeFromParameters result;
-          const auto repairs = make_closed(mesh);
+          const auto repairs      = make_closed(mesh);
+          const std::string where = "[" + section + "] Name = " + name + ": ";
           if (stl) // a mesh's faces have no order that could be wrong
             for (const auto &repair : repairs)
-              result.repairs.push_back("[" + section + "] Name = " + name + ": " + repair);
+              result.repairs.push_back(where + repair);
           result.shape = std::make_shared<TriangleShape>(mesh);
           return result;
         }
