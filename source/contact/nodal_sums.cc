@@ -6,15 +6,6 @@
 
 namespace akmon
 {
-  void
-  NodalSums::add_at(const unsigned int number,
-                    const dealii::Tensor<1, 3> &value,
-                    ContactNodes::Field &field)
-  {
-    field.add(number, value);
-  }
-
-
   // With the owners of nodes, which then know where they are not alone.
   void
   NodalSums::exchange_shares()

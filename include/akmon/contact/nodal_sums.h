@@ -39,12 +39,6 @@ namespace akmon
       dealii::Tensor<1, 3> value;
     };
 
-    // A call, so that no product in a value is rounded with the sum only: those of other ranks have
-    // been rounded before.
-    [[gnu::noinline]] static void
-    add_at(const unsigned int number,
-           const dealii::Tensor<1, 3> &value,
-           ContactNodes::Field &field);
     void
     exchange_shares();
     void
@@ -69,6 +63,11 @@ namespace akmon
     of_common.resize(3 * (nodes.size() - first_common));
     for (auto &addends : of_common)
       addends.clear();
+    // One function for all ranks and ways: inlined copies may round products with different sums.
+    const auto value_of = [&](const std::size_t i, const unsigned int k) __attribute__((noinline))
+    {
+      return value(i, k);
+    };
     const auto share = [&](const std::size_t i, const unsigned int k) {
       const ContactPair &pair = *pairs[i];
       shares.push_back({nodes.id(pair.nodes[k]),
@@ -78,7 +77,7 @@ namespace akmon
                         pair.of_edges,
                         pair.reversed,
                         pair.others,
-                        value(i, k)});
+                        value_of(i, k)});
     };
 
     shares.clear();
@@ -86,14 +85,14 @@ namespace akmon
       for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
         if (const unsigned int number = pairs[i]->nodes[k]; number >= first_common)
           for (unsigned int d = 0; d < 3; ++d)
-            of_common[3 * (number - first_common) + d].push_back(value(i, k)[d]);
+            of_common[3 * (number - first_common) + d].push_back(value_of(i, k)[d]);
         else if (number >= nodes.n_owned())
           share(i, k);
     exchange_shares();
     for (std::size_t i = 0; i < pairs.size(); ++i)
       for (unsigned int k = 0; k < pairs[i]->n_nodes; ++k)
         if (const unsigned int number = pairs[i]->nodes[k]; number < nodes.n_owned())
-          others_share[number] ? share(i, k) : add_at(number, value(i, k), field);
+          others_share[number] ? share(i, k) : field.add(number, value_of(i, k));
     add_shares(field);
     if (!of_common.empty())
       add_to_common_nodes(field);

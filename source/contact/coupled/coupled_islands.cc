@@ -159,10 +159,7 @@ namespace akmon
   CoupledSolver::divide_shared_pairs()
   {
     const unsigned int rank = Utilities::MPI::this_mpi_process(nodes.get_communicator());
-    std::sort(shared.begin(), shared.end(), [](const ClosingPair &a, const ClosingPair &b) {
-      return a.number < b.number;
-    });
-    of_all_ranks = gather(shared, nodes.get_communicator());
+    of_all_ranks            = gather(shared, nodes.get_communicator());
     order.resize(of_all_ranks.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {

@@ -185,7 +185,7 @@ namespace akmon
 
     std::vector<unsigned int> lone;   ///< pairs that have a closed solution, by number in `all`
     std::vector<ClosingPair> closing; ///< in islands that no other rank has a part in
-    std::vector<ClosingPair> shared;  ///< in islands that others may have a part in, by number
+    std::vector<ClosingPair> shared;  ///< in islands that others may have a part in
     std::vector<ClosingPair> of_all_ranks;          ///< these of all ranks, one rank after another
     std::vector<unsigned int> order;                ///< of these, by key
     std::map<Key, std::unique_ptr<Island>> islands; ///< that this rank solves, by their first pair
