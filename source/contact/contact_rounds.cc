@@ -16,12 +16,21 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    // Of the solver's tolerance: for the gaps that features of rigid bodies reach, and as much for
+    // what is between them.
+    constexpr double of_features = 0.5;
+  } // namespace
+
+
   // Forces, and again while the gaps that they lead to are not what the linear constraints promise,
   // or rigid bodies touch where there is no pair.
   void
   Contact::solve_coupled(const NodalState &state)
   {
     constexpr unsigned int most_rounds = 40;
+    constexpr unsigned int unsettled   = 10; // rounds after which edges are followed all the same
     constexpr double touch_anew        = std::numeric_limits<double>::infinity();
 
     coupled->solve(dx_free);
@@ -29,11 +38,18 @@ namespace akmon
       return;
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
-        const auto poses    = reach();
-        const auto joining  = follow_touches(poses);
-        const double here   = std::max(follow_partners(state, poses, round),
+        const auto poses  = reach();
+        auto joining      = follow_touches(poses);
+        const double here = std::max(follow_partners(state, poses, round),
                                      joining.empty() ? 0. : touch_anew);
-        const double excess = Utilities::MPI::max(here, discretization.communicator());
+        double excess     = Utilities::MPI::max(here, discretization.communicator());
+        if ((excess <= 1. || round % unsettled == 0) && !feature_searches.empty())
+          {
+            const auto bulges = follow_bulges(poses);
+            joining.insert(joining.end(), bulges.begin(), bulges.end());
+            excess = Utilities::MPI::max(joining.empty() ? excess : touch_anew,
+                                         discretization.communicator());
+          }
         if (excess <= 1.)
           return;
         if (!joining.empty())
@@ -83,6 +99,25 @@ namespace akmon
         for (const auto &uncovered : rigid_touches[i].follow(poses, of_touch[i]))
           joining.push_back(
             rigid_touches[i].join(uncovered, poses, nodes, rigid_nodes, dx_reached));
+    return joining;
+  }
+
+
+  // Pairs for what edges of rigid bodies are in faces deeper than the settled pairs tell.
+  std::vector<ContactPair>
+  Contact::follow_bulges(const std::vector<Pose> &poses)
+  {
+    std::vector<ContactPair> joining;
+    for (unsigned int i = 0; i < bodies.size(); ++i)
+      {
+        const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
+        feature_searches[i].join_bulges({x, dx, first, 0.},
+                                        {x_reached, dx_reached, first, 0.},
+                                        poses[i],
+                                        pairs,
+                                        of_features * solver.tolerance,
+                                        joining);
+      }
     return joining;
   }
 
@@ -157,6 +192,28 @@ namespace akmon
   }
 
 
+  // Up to which the gaps that a step reaches are to be right, over the cell size. Rigid shapes are
+  // exact, and so are gaps from them, but no better than forces are known, and late in a step not
+  // at sharp edges, where the closest face changes; normals of edges turn fast.
+  double
+  Contact::gap_tolerance(const ContactPair &pair, const bool late) const
+  {
+    constexpr double of_faces = 1e-7, of_edges = 1e-10, of_rigid = 1e-12, of_kinks = 1e-10,
+                     of_touches = 1e-11;
+
+    if (pair.is_touch())
+      return of_touches;
+    if (pair.of_edges)
+      return of_edges;
+    if (pair.interface < contacts.size())
+      return of_faces;
+    return std::max(2. * coupled->residual(),
+                    pair.of_features ? of_features * solver.tolerance :
+                    late             ? of_kinks :
+                                       of_rigid);
+  }
+
+
   // While segments turn under a slave, surfaces are curved or bodies rotate, n . G dx + g misses a
   // part of second order of the gap that the step reaches. Measures it for all pairs that may
   // close, or for those that the last solution has moved otherwise than the one before; returns how
@@ -166,9 +223,6 @@ namespace akmon
                            const std::vector<Pose> &poses,
                            const unsigned int round)
   {
-    // Of the cell size. Rigid shapes are exact: so are gaps from them; normals of edges turn fast.
-    constexpr double of_faces = 1e-7, of_features = 1e-9, of_edges = 1e-10, of_rigid = 1e-12,
-                     of_touches        = 1e-11;
     constexpr double least_of_features = 0.1; // and of rims
     constexpr unsigned int many_rounds = 20;  // what closed and opened in turns only closes then
 
@@ -199,19 +253,15 @@ namespace akmon
         if (stays_open || !reached_gap(*pair, poses, reached))
           continue;
         const double curvature = std::clamp(reached - linear, -bound, bound);
-        const double tolerance = pair->of_features                  ? of_features :
-                                 pair->of_edges                     ? of_edges :
-                                 pair->is_touch()                   ? of_touches :
-                                 pair->interface >= contacts.size() ? of_rigid :
-                                                                      of_faces;
-        const bool only_closes = (pair->is_touch() || pair->of_edges) && round > many_rounds;
+        const bool late        = round > many_rounds;
+        const bool only_closes = (pair->of_edges || pair->interface >= contacts.size()) && late;
         const double change    = curvature - pair->curvature;
         const double excess    = (only_closes ? std::max(0., -change) : std::abs(change)) /
-                              (pair->size * tolerance);
+                              (pair->size * gap_tolerance(*pair, late));
         if (pair->normal_force > 0. || linear + curvature < allowed)
           largest = std::max(largest, excess);
         pair->settled = excess <= 1.;
-        if (!pair->settled && only_closes)
+        if (!pair->settled && only_closes && !pair->of_features)
           pair->curvature = curvature;
         else if (!pair->settled)
           count_on(*pair, curvature);

@@ -247,10 +247,14 @@ namespace akmon
     reach();
     std::vector<ContactPair>
     follow_touches(const std::vector<Pose> &poses);
+    std::vector<ContactPair>
+    follow_bulges(const std::vector<Pose> &poses);
     double
     follow_partners(const NodalState &state,
                     const std::vector<Pose> &poses,
                     const unsigned int round);
+    double
+    gap_tolerance(const ContactPair &pair, const bool late) const;
     static void
     count_on(ContactPair &pair, const double curvature);
     std::vector<Pose>

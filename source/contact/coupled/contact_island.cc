@@ -1,4 +1,5 @@
 #include <akmon/contact/bonds/bonds.h>
+#include <akmon/contact/coupled/active_set.h>
 #include <akmon/contact/coupled/contact_island.h>
 #include <akmon/contact/coupled/gauss_seidel.h>
 
@@ -107,7 +108,9 @@ namespace akmon
       }
     result                     = newton.solve(problem, delassus, preconditioner, tau, faces);
     problem.start_is_reference = true; // of the next gaps of the same step
-    if (!result.converged && delassus.matrix().size() > 0)
+    if (!result.converged && !problem.rubs())
+      solve_one_by_one();
+    else if (!result.converged && delassus.matrix().size() > 0)
       start_elsewhere(parameters.limit, newton);
     if (!result.converged && problem.rubs() && largest_overlap() > problem.sufficient)
       let_slip(parameters.limit, newton);
@@ -158,6 +161,43 @@ namespace akmon
   }
 
 
+  // Where constraints without friction nearly repeat each other, which Newton's steps, all pairs at
+  // once, may not find out of.
+  void
+  ContactIsland::solve_one_by_one()
+  {
+    constexpr unsigned int most = 400; // pairs: the time grows with their third power
+
+    const unsigned int n = pairs.size();
+    if (n > most)
+      return;
+    Eigen::MatrixXd A(n, n);
+    Eigen::VectorXd b(n), weights(n), t;
+    Delassus::Vector unit(n), image(n);
+    for (unsigned int j = 0; j < n; ++j)
+      {
+        unit[j][0] = 1.;
+        delassus.apply(unit, image);
+        unit[j][0] = 0.;
+        for (unsigned int i = 0; i < n; ++i)
+          A(i, j) = image[i][0];
+        b[j]       = problem.b[j][0];
+        weights[j] = problem.weights[j];
+      }
+    result.n_applications += n;
+    if (!solve_by_active_set(A, b, weights, 0.5 * problem.tolerance, t))
+      return;
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        tau[i]          = Delassus::Vector::value_type({t[i], 0., 0.});
+        faces[i]        = CoulombFace();
+        faces[i].normal = t[i] > 0.;
+      }
+    result.residual  = largest_overlap();
+    result.converged = result.residual <= problem.sufficient;
+  }
+
+
   // By which gaps are less than they should be, over the size of the pair.
   double
   ContactIsland::largest_overlap()
@@ -181,7 +221,9 @@ namespace akmon
     problem.friction.assign(friction.size(), 0.);
     problem.limit = limit;
     tau.assign(tau.size(), {});
-    result           = newton.solve(problem, delassus, preconditioner, tau, faces);
+    result = newton.solve(problem, delassus, preconditioner, tau, faces);
+    if (!result.converged)
+      solve_one_by_one();
     problem.friction = friction;
     result.n_applications += n_applications;
     result.converged = false; // with friction

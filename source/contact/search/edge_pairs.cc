@@ -25,14 +25,6 @@ namespace akmon
     }
 
 
-    // How far a part of an edge is beyond its ends.
-    double
-    past_end(const double part)
-    {
-      return std::max({0., -part, part - 1.});
-    }
-
-
     // An edge's direction, counter-clockwise around its first face, and the normals of both.
     struct Wedge
     {

@@ -28,13 +28,8 @@ namespace akmon
   } // namespace
 
 
-  // Masters with their weights N_k.
   ContactPair
-  FeatureSearch::make_pair(const View &view,
-                           const Record &record,
-                           const std::vector<std::pair<unsigned int, double>> &masters,
-                           const Tensor<1, 3> &normal,
-                           const double gap)
+  FeatureSearch::make_pair(const View &view, const Record &record, const Touch &touch)
   {
     ContactPair pair;
     const bool of_edge = record.kind == Kind::crossing;
@@ -52,29 +47,22 @@ namespace akmon
       pair.others = {{face.ids[0], face.ids[1], face.ids[2]}};
     pair.row       = records.size();
     pair.face      = record.partner;
-    pair.normal    = normal;
-    pair.gap       = gap;
+    pair.normal    = touch.normal;
+    pair.gap       = touch.gap;
     pair.size      = face.size;
     pair.stiffness = face.stiffness;
     pair.place     = Tensor<1, 3>();
     pair.n_nodes   = 0;
-    const auto add = [&](const unsigned int node, const double weight) {
-      pair.nodes[pair.n_nodes]     = node;
-      pair.weights[pair.n_nodes++] = weight;
-    };
     if (body.moves())
-      add(view.first_rigid, 1.);
-    for (const auto &[node, weight] : masters)
+      pair.add_node(view.first_rigid, 1.);
+    for (const auto &[node, weight] : touch.masters)
       {
         pair.place += weight * view.x[node];
         if (weight != 0.)
-          add(node, -weight);
+          pair.add_node(node, -weight);
       }
     if (body.moves())
-      {
-        pair.radii[pair.n_rotations++] = pair.place - body.centre();
-        add(view.first_rigid + 1, 1.);
-      }
+      pair.add_rotation(view.first_rigid + 1, 1., pair.place - body.centre());
     records.push_back(record);
     return pair;
   }
@@ -189,11 +177,10 @@ namespace akmon
   {
     const std::size_t first = pairs.size();
     const auto add          = [&](const Foot &foot, const Tensor<1, 3> &normal, const double gap) {
-      const auto &face = surface.get_faces()[foot.face];
-      std::vector<std::pair<unsigned int, double>> masters;
+      Touch touch{{}, normal, gap};
       for (unsigned int k = 0; k < 4; ++k)
-        masters.emplace_back(face.nodes[k], foot.projection.N[k]);
-      pairs.push_back(make_pair(view, {Kind::corner, vertex, foot.face}, masters, normal, gap));
+        touch.masters.emplace_back(surface.get_faces()[foot.face].nodes[k], foot.projection.N[k]);
+      pairs.push_back(make_pair(view, {Kind::corner, vertex, foot.face}, touch));
       pairs.back().foot = {{foot.projection.xi, foot.projection.eta}};
     };
     const auto closest = *std::min_element(feet.begin(),
@@ -298,10 +285,10 @@ namespace akmon
     if (record.kind == Kind::bulge)
       {
         std::array<double, 2> stretch;
-        if (!stretch_over(x, line, record.partner, stretch))
+        if (!stretch_over(x, line, record.partner, stretch) || record.s < stretch[0] ||
+            record.s > stretch[1])
           return false;
-        const double s = closest_over(x, line, record.partner, stretch, record.part);
-        gap            = gap_over(x, line.a + s * line.u, record.partner);
+        gap = gap_over(x, line.a + record.s * line.u, record.partner);
         return true;
       }
     Crossing crossing;

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-// Pairs of sharp edges of rigid bodies with edges between faces and with faces.
+// Pairs of sharp edges of rigid bodies with edges between faces.
 
 namespace akmon
 {
@@ -16,22 +16,6 @@ namespace akmon
     constexpr double normals_off  = 0.35; // radians: of a touching edge from those of the surface
     constexpr double body_off     = 0.1;  // sine: the same from those of the body
     constexpr double end_rounding = 1e-9; // of an edge: no further beyond its end is at it
-
-
-    Tensor<1, 3>
-    unit_normal(const Segment &corners)
-    {
-      const auto area = area_vector(corners);
-      return area / area.norm();
-    }
-
-
-    // How far a part of an edge is beyond its ends.
-    double
-    past_end(const double part)
-    {
-      return std::max({0., -part, part - 1.});
-    }
 
 
     // The normals a surface takes at an edge: those within an angle of their mean.
@@ -238,155 +222,12 @@ namespace akmon
         const bool past = std::max(past_end(crossing.s), past_end(crossing.t)) > end_rounding;
         const auto pair = make_pair(view,
                                     {Kind::crossing, feature, e},
-                                    {{edge.nodes[0], 1. - crossing.t}, {edge.nodes[1], crossing.t}},
-                                    crossing.normal,
-                                    past ? std::max(0., crossing.gap) : crossing.gap);
+                                    {{{edge.nodes[0], 1. - crossing.t},
+                                      {edge.nodes[1], crossing.t}},
+                                     crossing.normal,
+                                     past ? std::max(0., crossing.gap) : crossing.gap});
         if (!is_behind(pair, previous))
           pairs.push_back(pair);
-      }
-  }
-
-
-  // The part of an edge that is above a face; false if there is none.
-  bool
-  FeatureSearch::stretch_over(const ContactNodes::Field &x,
-                              const Line &line,
-                              const unsigned int face,
-                              std::array<double, 2> &s) const
-  {
-    constexpr double least = 1e-6; // of the edge
-
-    const auto corners = surface.segment(x, face);
-    const auto normal  = unit_normal(corners);
-    s                  = {{0., 1.}};
-    for (unsigned int k = 0; k < 4; ++k)
-      {
-        const auto inward  = cross_product_3d(normal, corners[(k + 1) % 4] - corners[k]);
-        const double begin = (line.a - corners[k]) * inward, slope = line.u * inward;
-        if (slope > 0.)
-          s[0] = std::max(s[0], -begin / slope);
-        else if (slope < 0.)
-          s[1] = std::min(s[1], -begin / slope);
-        else if (begin < 0.)
-          return false;
-      }
-    return s[1] - s[0] > least;
-  }
-
-
-  double
-  FeatureSearch::gap_over(const ContactNodes::Field &x,
-                          const Tensor<1, 3> &p,
-                          const unsigned int face) const
-  {
-    const auto corners    = surface.segment(x, face);
-    const auto projection = project(p, corners);
-    return segment_normal(corners, projection.xi, projection.eta) * projection.offset;
-  }
-
-
-  // How far the middle of an edge over a face is closer to it than its ends are in the mean.
-  double
-  FeatureSearch::sag_over(const ContactNodes::Field &x,
-                          const Line &line,
-                          const unsigned int face,
-                          const std::array<double, 2> &stretch) const
-  {
-    const auto gap = [&](const double s) { return gap_over(x, line.a + s * line.u, face); };
-    return 0.5 * (gap(stretch[0]) + gap(stretch[1])) - gap(0.5 * (stretch[0] + stretch[1]));
-  }
-
-
-  // Where a third of an edge over a face that bulges is closest to it: at one of its ends, or where
-  // it is parallel to the face. What is at the ends of the edge over the face has other pairs.
-  double
-  FeatureSearch::closest_over(const ContactNodes::Field &x,
-                              const Line &line,
-                              const unsigned int face,
-                              const std::array<double, 2> &stretch,
-                              const unsigned int part) const
-  {
-    constexpr double from_ends = 5e-3; // of the edge over the face
-
-    const auto corners = surface.segment(x, face);
-    const auto slope   = [&](const double s) {
-      const auto foot = project(line.a + s * line.u, corners);
-      return line.u * segment_normal(corners, foot.xi, foot.eta);
-    };
-    const auto at = [&](const double third) {
-      return stretch[0] +
-             std::clamp(third / 3., from_ends, 1. - from_ends) * (stretch[1] - stretch[0]);
-    };
-    double low = at(part), high = at(part + 1.), f_low = slope(low), f_high = slope(high);
-    if (f_low >= 0.)
-      return low;
-    if (f_high <= 0.)
-      return high;
-    // The slope is nearly linear: false position, and halves where that is slow.
-    double s = low;
-    for (unsigned int i = 0; i < 60 && high - low > 1e-12; ++i)
-      {
-        s = i % 3 == 2 ? 0.5 * (low + high) : (low * f_high - high * f_low) / (f_high - f_low);
-        const double f = slope(s);
-        if (std::abs(f) <= 1e-15 * line.u.norm())
-          break;
-        (f < 0. ? low : high)     = s;
-        (f < 0. ? f_low : f_high) = f;
-      }
-    return s;
-  }
-
-
-  // What the twist of a face may add to its bulge in a step, from the last one.
-  double
-  FeatureSearch::bulge_to_come(const View &view, const unsigned int face) const
-  {
-    constexpr double steps = 4.;
-
-    const auto &nodes = surface.get_faces()[face].nodes;
-    return steps *
-           (view.dx[nodes[0]] - view.dx[nodes[1]] + view.dx[nodes[2]] - view.dx[nodes[3]]).norm();
-  }
-
-
-  void
-  FeatureSearch::find_bulges(const View &view,
-                             const std::vector<ContactPair> &previous,
-                             std::vector<ContactPair> &pairs)
-  {
-    constexpr double least_sag = 1e-9; // of the face's size: less is no bulge
-
-    const auto lines = lines_now();
-    for (const auto &[feature, f] : faces_of_edges)
-      {
-        const auto &face   = surface.get_faces()[f];
-        const auto corners = surface.segment(view.x, f);
-        const Line &line   = lines[feature];
-        const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-        double wide        = 0.;
-        for (const auto &corner : corners)
-          wide = std::max(wide, (corner - middle).norm());
-        if (line.distance(middle) > wide + std::max(view.reach, deepest_part * face.depth))
-          continue;
-        std::array<double, 2> stretch;
-        if (!line.may_touch(unit_normal(corners)) || !stretch_over(view.x, line, f, stretch) ||
-            sag_over(view.x, line, f, stretch) + bulge_to_come(view, f) < least_sag * face.size)
-          continue;
-        for (unsigned int part = 0; part < 3; ++part)
-          {
-            const double s   = closest_over(view.x, line, f, stretch, part);
-            const auto foot  = project(line.a + s * line.u, corners);
-            const auto n     = segment_normal(corners, foot.xi, foot.eta);
-            const double gap = n * foot.offset;
-            if (gap > view.reach || gap < -deepest_part * face.depth)
-              continue;
-            std::vector<std::pair<unsigned int, double>> masters;
-            for (unsigned int k = 0; k < 4; ++k)
-              masters.emplace_back(face.nodes[k], foot.N[k]);
-            const auto pair = make_pair(view, {Kind::bulge, feature, f, part}, masters, n, gap);
-            if (!is_behind(pair, previous))
-              pairs.push_back(pair);
-          }
       }
   }
 } // namespace akmon

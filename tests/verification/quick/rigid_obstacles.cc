@@ -194,26 +194,25 @@ namespace
                              scratch.path + "/box.stl\n  end\n",
                       shape = "  set Shape = box\n  subsection Box\n"
                               "   set Size = 0.6, 0.55, 0.2\n  end\n";
-    for (const auto &[solver, tolerance, of_force] :
-         {std::make_tuple("decoupled", 1e-14, 1e-8), std::make_tuple("coupled", 2e-7, 1e-6)})
+    for (const std::string solver : {"decoupled", "coupled"})
       {
-        const std::vector<std::string> overrides{std::string("Contact solver/Type=") + solver};
+        const std::vector<std::string> overrides{"Contact solver/Type=" + solver};
         const Table meshed = run(slab + held + tool(path + file) + every_step, overrides),
                     exact  = run(slab + held + tool(path + shape) + every_step, overrides);
-        std::cout << "  " << solver << ": penetration " << largest(meshed["max_penetration_rel"])
-                  << std::endl;
-        EXPECT_LT(largest(meshed["max_penetration_rel"]), tolerance);
-        // In a few steps the gaps do not settle in the rounds there are.
         const auto &depths = meshed["max_penetration_rel"];
+        std::cout << "  " << solver << ": penetration " << largest(depths) << std::endl;
+        EXPECT_LT(largest(depths), solver == "coupled" ? 1e-7 : 1e-14);
+        // A node that comes to lie on a sharp edge may be on either side of it.
         EXPECT_LE(std::count_if(depths.begin(),
                                 depths.end(),
                                 [](const double depth) { return depth > 2e-9; }),
-                  10);
-        // Later nodes come to lie on sharp edges, whose normal rounding decides.
+                  5);
+        // Later nodes come to lie on sharp edges, whose normal rounding decides. What the tolerance
+        // of gaps leaves of a step's force is a millionth of the largest one, if not in the sum.
+        const std::string column = solver == "coupled" ? "momentum_z" : "tool.force_z";
+        const double tolerance   = solver == "coupled" ? 1e-6 : 1e-8;
         for (const std::size_t i : exact.rows_between(0., 0.0135))
-          EXPECT_NEAR(meshed["tool.force_z"][i],
-                      exact["tool.force_z"][i],
-                      of_force * largest(exact["tool.force_z"]))
+          EXPECT_NEAR(meshed[column][i], exact[column][i], tolerance * largest(exact[column]))
             << exact["time"][i];
       }
   }

@@ -70,8 +70,8 @@ namespace
         report("  energy error", largest_of(whole.history["energy_error"]));
         report("  force", largest_of(whole.history["tool.force_z"]));
         report("  iterations", mean_iterations(whole.history));
-        EXPECT_LE(of_h, 1e-8);
-        EXPECT_LE(deepest / h, 1e-8);
+        EXPECT_LE(of_h, 1e-9);
+        EXPECT_LE(deepest / h, 1e-9);
         EXPECT_LE(std::abs(largest_of(whole.history["energy_error"])), 1e-3);
         EXPECT_GT(largest_of(whole.history["tool.force_z"]), 100.);
       }
@@ -137,7 +137,7 @@ namespace
         const auto run = tool.run({"Time/End=0.025"});
         forces.push_back(run.history["tool.force_z"].back());
         report(shape + ": force", forces.back());
-        EXPECT_LE(largest_of(run.history["max_penetration_rel"]), 1e-8);
+        EXPECT_LE(largest_of(run.history["max_penetration_rel"]), 1e-9);
       }
     EXPECT_NEAR(forces[1] / forces[0], 1., 1e-6);
     EXPECT_NEAR(forces[2] / forces[0], 1., 1e-6);
@@ -176,7 +176,7 @@ namespace
         report("friction dissipation", history["friction_dissipation"].back());
         EXPECT_GT(history["box.velocity_z"].back(), -2.9);
         EXPECT_LE(largest_of(history["energy_error"]), 1e-4);
-        EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-8);
+        EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-9);
         EXPECT_EQ(history["friction_dissipation"].back() > 1e-3, std::string(friction) != "0");
       }
   }
@@ -191,7 +191,7 @@ namespace
     report("penetration over h", largest_of(history["max_penetration_rel"]));
     report("energy error", largest_of(history["energy_error"]));
     EXPECT_LT(history["box.displacement_z"].back(), -0.3); // it has fallen past the slab
-    EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-7);
+    EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-8);
     EXPECT_LE(largest_of(history["energy_error"]), 1e-4);
   }
 
@@ -222,8 +222,8 @@ namespace
     report("penetration over h", largest_of(history["max_penetration_rel"]));
     report("energy error", largest_of(history["energy_error"]));
     EXPECT_GT(largest_of(history["tool.force_z"]), 100.);
-    EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-8);
-    EXPECT_LE(deepest / h, 1e-8);
+    EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-9);
+    EXPECT_LE(deepest / h, 1e-9);
     EXPECT_LE(largest_of(history["energy_error"]), 1e-4);
   }
 
@@ -248,7 +248,7 @@ namespace
         report("penetration over h", largest_of(history["max_penetration_rel"]));
         report("its velocity after the impact", history["tool.velocity_z"].back());
         EXPECT_GT(largest_of(history["active_pairs"]), 0.);
-        EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-8);
+        EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-9);
         EXPECT_GT(history["tool.velocity_z"].back(), -1.);
         EXPECT_LE(change_of_momentum(history) / (1e-3 * 2000.), 1e-12);
       }

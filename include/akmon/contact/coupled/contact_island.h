@@ -87,6 +87,8 @@ namespace akmon
     largest_overlap();
     void
     let_slip(const unsigned int limit, Newton &newton);
+    void
+    solve_one_by_one();
 
     std::vector<ContactPair> pairs; ///< their nodes are numbers of the island
     std::vector<ContactNodes::Id> ids;

@@ -28,6 +28,23 @@ namespace akmon
   }
 
 
+  /// Of a segment's area vector.
+  inline dealii::Tensor<1, 3>
+  unit_normal(const Segment &corners)
+  {
+    const auto area = area_vector(corners);
+    return area / area.norm();
+  }
+
+
+  /// How far a part of an edge is beyond its ends, which are 0 and 1.
+  inline double
+  past_end(const double part)
+  {
+    return std::max({0., -part, part - 1.});
+  }
+
+
   /// Length of the shortest edge of a segment.
   inline double
   least_edge(const Segment &corners)

@@ -106,6 +106,24 @@ namespace akmon
     bool
     gap_at(const ContactNodes::Field &x, const Pose &pose, ContactPair &pair, double &gap) const;
 
+    /**
+     * Append pairs of edges with the inside of faces for what is deeper, where a step leads, than
+     * any of the pairs there are tells: with them gaps settle along all of the edge (the exchange
+     * method of semi-infinite programming, Hettich and Kortanek, SIAM Review 35, 1993).
+     * @param view       of the last search
+     * @param reached    where the step leads: configuration and increments
+     * @param pose       of the body there
+     * @param pairs      of the last search, and those that have joined them
+     * @param tolerance  of what is deeper, over the cell size
+     */
+    void
+    join_bulges(const View &view,
+                const View &reached,
+                const Pose &pose,
+                const std::vector<ContactPair> &pairs,
+                const double tolerance,
+                std::vector<ContactPair> &joining);
+
     unsigned int
     get_interface() const
     {
@@ -124,9 +142,10 @@ namespace akmon
     struct Record
     {
       Kind kind;
-      unsigned int feature;  ///< number of the corner or of the edge
-      unsigned int partner;  ///< number of the face or of the edge between faces
-      unsigned int part = 0; ///< of a bulge: which third of the edge over it
+      unsigned int feature;   ///< number of the corner or of the edge
+      unsigned int partner;   ///< number of the face or of the edge between faces
+      unsigned int part = 0;  ///< of a bulge: which third of the edge over it; beyond, joined later
+      double s          = 0.; ///< of a bulge: part of the edge where the pair is
     };
 
     // An edge of the body in space.
@@ -153,6 +172,14 @@ namespace akmon
       double s, t; ///< parts of both
       dealii::Tensor<1, 3> normal;
       double gap, sine;
+    };
+
+    // Where a feature touches the surface: nodes with their weights N_k, and the normal there.
+    struct Touch
+    {
+      std::vector<std::pair<unsigned int, double>> masters;
+      dealii::Tensor<1, 3> normal;
+      double gap; ///< length
     };
 
     // A corner's closest point of a face.
@@ -246,11 +273,17 @@ namespace akmon
              const dealii::Tensor<1, 3> &p,
              const unsigned int face) const;
     ContactPair
-    make_pair(const View &view,
-              const Record &record,
-              const std::vector<std::pair<unsigned int, double>> &masters,
-              const dealii::Tensor<1, 3> &normal,
-              const double gap);
+    make_pair(const View &view, const Record &record, const Touch &touch);
+    Touch
+    touch_over(const ContactNodes::Field &x,
+               const dealii::Tensor<1, 3> &p,
+               const unsigned int face) const;
+    bool
+    is_over(const ContactNodes::Field &x,
+            const Line &line,
+            const unsigned int face,
+            const double reach,
+            std::array<double, 2> &stretch) const;
 
     const Discretization &discretization;
     const RigidBody &body;
