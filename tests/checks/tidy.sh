@@ -34,10 +34,11 @@ files=("$@")
 if ((${#files[@]} == 0)); then
   mapfile -t files < <(sed -n 's/^ *"file": "\(.*\)".*/\1/p' "$commands" | grep -v cmake_pch)
 fi
+# Named, because clang-tidy looks for its configuration beside the batches, where none need be.
+options=(-p "$database" --config-file=.clang-tidy --quiet --warnings-as-errors='*')
 findings=$database/findings.txt
 status=0
-printf '%s\n' "${files[@]}" |
-  xargs -P "$(nproc)" -n 1 "$tidy" -p "$database" --quiet --warnings-as-errors='*' >"$findings" 2>&1 || status=$?
+printf '%s\n' "${files[@]}" | xargs -P "$(nproc)" -n 1 "$tidy" "${options[@]}" >"$findings" 2>&1 || status=$?
 if ((status)); then
   grep -v -E '^[0-9]+ warnings? |^Suppressed |^Use -header-filter' "$findings" | cut -c 1-240
   exit 1
