@@ -11,7 +11,7 @@
 #include <random>
 #include <string>
 
-namespace akmon::test
+namespace akmon::test::arc_end_paths
 {
   // The ARC-end update of a hypoelastic point along given paths of deformation.
 
@@ -271,4 +271,4 @@ namespace akmon::test
                                diagonal(1. + 0.2 * h, 1. - 0.1 * h, 1. + 0.1 * h),
                                rotation(40. * h));
   }
-} // namespace akmon::test
+} // namespace akmon::test::arc_end_paths

@@ -6,7 +6,6 @@
 
 namespace akmon::test
 {
-  using Matrix = dealii::Tensor<2, 3>;
   using Vector = dealii::Tensor<1, 3>;
 
   inline constexpr double pi = 3.14159265358979323846;

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace akmon::test
+namespace akmon::test::coupled_boxes
 {
   // Two small boxes whose meshes do not match, through Contact and Fidcd: masses fly freely, no
   // internal forces.
@@ -196,4 +196,4 @@ namespace akmon::test
     NodalVector velocity, free;
     ContactNodes::Field increment;
   };
-} // namespace akmon::test
+} // namespace akmon::test::coupled_boxes

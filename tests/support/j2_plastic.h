@@ -6,7 +6,7 @@
 #include <functional>
 #include <random>
 
-namespace akmon::test
+namespace akmon::test::j2_points
 {
   // A point of J2 plasticity with its state, driven by strain increments without any map.
 
@@ -95,4 +95,4 @@ namespace akmon::test
       return result;
     }
   };
-} // namespace akmon::test
+} // namespace akmon::test::j2_points

@@ -10,12 +10,12 @@
 
 namespace akmon::test
 {
-  using Vector = dealii::Tensor<1, 3>;
-  using Frame  = dealii::Tensor<2, 3>;
-  using Matrix = std::vector<std::vector<double>>;
+  using Vector      = dealii::Tensor<1, 3>;
+  using Frame       = dealii::Tensor<2, 3>;
+  using DenseMatrix = std::vector<std::vector<double>>;
 
   inline double
-  norm_bound(const Matrix &A)
+  norm_bound(const DenseMatrix &A)
   {
     double largest = 0.;
     for (const auto &row : A)
@@ -58,7 +58,7 @@ namespace akmon::test
       std::mt19937 random(seed);
       std::normal_distribution<double> gauss;
       const auto vector = [&]() { return Vector({gauss(random), gauss(random), gauss(random)}); };
-      Matrix G(n, std::vector<double>(n));
+      DenseMatrix G(n, std::vector<double>(n));
       for (unsigned int i = 0; i < n; ++i)
         {
           for (auto &g : G[i])
@@ -123,7 +123,7 @@ namespace akmon::test
       return result;
     }
 
-    Matrix S;
+    DenseMatrix S;
     std::vector<Vector> b;
     std::vector<Frame> frame;
   };

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace akmon::test
+namespace akmon::test::two_cubes
 {
   // Two unit cubes through Contact and Fidcd. Masses fly freely: no internal forces.
 
@@ -200,4 +200,4 @@ namespace akmon::test
   // The same at a gap that is within the reach of slaves at rest.
   inline constexpr double gap_within_reach = 0.004;
   inline const Vector overlaps_closely({gap_within_reach - initial_gap, 0.6, 0.7});
-} // namespace akmon::test
+} // namespace akmon::test::two_cubes

@@ -9,10 +9,11 @@
 // The update as the paper prints it, in each of its readings, against the one that akmon uses:
 // accuracy and objectivity.
 
-namespace
+namespace arc_end_as_printed_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::arc_end_paths;
 
   Matrix
   mid_map(const Matrix &F)
@@ -157,4 +158,4 @@ namespace
           EXPECT_LT(norm(one_step(step, Q)), 1e-12 * E);
       }
   }
-} // namespace
+} // namespace arc_end_as_printed_test

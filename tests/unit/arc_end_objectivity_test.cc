@@ -6,10 +6,11 @@
 
 // The ARC-end update seen from turned frames: what it keeps exactly, and what to which order.
 
-namespace
+namespace arc_end_objectivity_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::arc_end_paths;
 
   TEST(ArcEnd, RigidRotationInOneStepTurnsTheStress)
   {
@@ -93,4 +94,4 @@ namespace
     const Stress across = one_step(arc_end, Q * diagonal(1. + e, 1. + e, 1.));
     EXPECT_NEAR(across[0], 1600. * e / c2, 1e-5 * 1600. * e);
   }
-} // namespace
+} // namespace arc_end_objectivity_test

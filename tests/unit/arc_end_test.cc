@@ -19,10 +19,11 @@
 // numbers for N steps are those of the reference solutions (references.md, section 8), independent
 // computations of the ARC-end update given to six decimals.
 
-namespace
+namespace arc_end_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::arc_end_paths;
 
   constexpr double half_a_printed_digit = 0.5e-6;
 
@@ -356,4 +357,4 @@ namespace
         EXPECT_EQ(std::memcmp(results.data(), first.data(), sizeof(first)), 0) << shift;
       }
   }
-} // namespace
+} // namespace arc_end_test

@@ -14,7 +14,7 @@
 
 // The bound of the assembled system's largest frequency against known ones, and mass scaling.
 
-namespace
+namespace assembled_frequency_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -161,4 +161,4 @@ namespace
     EXPECT_NEAR(scale_masses(two.discretization, two.forces, largest), .5, 1e-6);
     EXPECT_EQ(scale_masses(two.discretization, two.forces, 2. * largest), 0.);
   }
-} // namespace
+} // namespace assembled_frequency_test

@@ -6,10 +6,11 @@
 
 // What the search is told of the motion of two bodies.
 
-namespace
+namespace body_motions_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::coupled_boxes;
 
   // The first body flies with (3, 0, 4), one of its nodes with (0, 0, 2) more; the other rests. The
   // first body's last node is on no contact surface, and faster than all others.
@@ -110,4 +111,4 @@ namespace
     EXPECT_NEAR(flight.motions.within(1), std::sqrt(45.), 1e-14);
     EXPECT_EQ(flight.motions.approach(1, 1), 0.);
   }
-} // namespace
+} // namespace body_motions_test

@@ -8,11 +8,11 @@
 
 // The strength of a bond, and the points that stand for a bonded area.
 
-using namespace akmon;
-using dealii::Tensor;
-
-namespace
+namespace bond_test
 {
+  using namespace akmon;
+  using dealii::Tensor;
+
   const Tensor<1, 3> normal({0., 0., 1.});
 
 
@@ -147,4 +147,4 @@ namespace
     EXPECT_TRUE(bond_points(slaves, masters, 0.05).empty());
     EXPECT_EQ(bond_points(slaves, masters, 0.07).size(), 9u);
   }
-} // namespace
+} // namespace bond_test

@@ -9,7 +9,7 @@
 
 // The boxes that hold a point, against asking all of them.
 
-namespace
+namespace box_grid_test
 {
   using akmon::BoxGrid;
   using Vector = dealii::Tensor<1, 3>;
@@ -103,4 +103,4 @@ namespace
     grid.collect(Vector({nan, nan, nan}), numbers);
     EXPECT_EQ(numbers.size(), 2u);
   }
-} // namespace
+} // namespace box_grid_test

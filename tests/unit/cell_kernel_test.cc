@@ -13,7 +13,7 @@
 // it stands in a batch and whatever its neighbours are, and is that of scalar arithmetic to
 // round-off.
 
-namespace
+namespace cell_kernel_test
 {
   using namespace akmon;
 
@@ -162,4 +162,4 @@ namespace
             }
         }
   }
-} // namespace
+} // namespace cell_kernel_test

@@ -9,7 +9,7 @@
 // Coulomb's law (8)-(11) alone, and the nodes of a cube that hit a rigid plane with friction, where
 // the decoupled and the coupled solution are the same.
 
-namespace
+namespace contact_friction_test
 {
   using namespace akmon;
   using Vector = dealii::Tensor<1, 3>;
@@ -93,12 +93,12 @@ namespace
   // A cube on a rigid plane
   // ---------------------------------------------------------------------------------------------
 
-  class OnAPlane : public testing::TestWithParam<ContactSolver::Type>
+  class CubeOnAPlane : public testing::TestWithParam<ContactSolver::Type>
   {
   };
 
 
-  TEST_P(OnAPlane, EveryNodeStopsWithFriction)
+  TEST_P(CubeOnAPlane, EveryNodeStopsWithFriction)
   {
     ContactSolver solver;
     solver.type = GetParam();
@@ -160,7 +160,7 @@ namespace
 
 
   INSTANTIATE_TEST_SUITE_P(Solvers,
-                           OnAPlane,
+                           CubeOnAPlane,
                            testing::Values(ContactSolver::Type::decoupled,
                                            ContactSolver::Type::coupled));
-} // namespace
+} // namespace contact_friction_test

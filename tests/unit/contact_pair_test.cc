@@ -9,10 +9,11 @@
 // One slave node against one segment through Contact and Fidcd: the forces of Problem 3 (decoupled)
 // in closed form, momentum, the gap that is left, Lemma 1. Masses fly freely: no internal forces.
 
-namespace
+namespace contact_pair_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::two_cubes;
 
   TEST(OnePair, HasTheWeightsNormalAndGapOfTheProjection)
   {
@@ -300,4 +301,4 @@ namespace
       }
     EXPECT_LT(depth, 0.02 - 5. * 0.75 * released);
   }
-} // namespace
+} // namespace contact_pair_test

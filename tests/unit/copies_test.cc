@@ -11,7 +11,7 @@
 // Copies of a body: places, names, random shifts and turns, surfaces by the name of all, refused
 // input.
 
-namespace
+namespace copies_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -138,4 +138,4 @@ namespace
               std::string::npos);
     EXPECT_NE(error_of({"Copies/Count=0, 1, 1"}), "no error");
   }
-} // namespace
+} // namespace copies_test

@@ -4,10 +4,9 @@
 
 // The faces of Coulomb's cone.
 
-using namespace akmon;
-
-namespace
+namespace coulomb_faces_test
 {
+  using namespace akmon;
   using Vector = dealii::Tensor<1, 3>;
 
 
@@ -50,4 +49,4 @@ namespace
     EXPECT_LE((slip.settle(v, 1.5) - Vector({3., 0.9, 1.2})).norm(), 1e-15);
     EXPECT_LE((slip.lift(Vector({2., -0.8, 0.6})) - Vector({2., -0.2, 1.4})).norm(), 1e-15);
   }
-} // namespace
+} // namespace coulomb_faces_test

@@ -12,10 +12,11 @@
 // Contact and Fidcd. What must hold: no gap lost, forces where gaps are closed only, Coulomb's law
 // for every pair, momentum.
 
-namespace
+namespace coupled_contact_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::coupled_boxes;
 
   struct Setting
   {
@@ -148,4 +149,4 @@ namespace
                                            Setting{2, 3, false},
                                            Setting{3, 2, false},
                                            Setting{4, 2, false}));
-} // namespace
+} // namespace coupled_contact_test

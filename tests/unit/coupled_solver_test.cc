@@ -13,10 +13,11 @@
 // CoupledSolver alone, for the pairs of two small boxes whose meshes do not match, from any start:
 // increments that do not depend on the start, nor do forces although constraints repeat each other.
 
-namespace
+namespace coupled_solver_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::coupled_boxes;
 
   // Increments of the contact nodes that a set of pairs makes for given starts of its forces.
   struct Alone
@@ -192,4 +193,4 @@ namespace
     for (const auto &pair : pairs)
       EXPECT_EQ(pair.normal_force, 0.);
   }
-} // namespace
+} // namespace coupled_solver_test

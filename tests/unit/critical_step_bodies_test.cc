@@ -15,7 +15,7 @@
 // The critical step 2/omega_max of assembled bodies against references.md, section 7, and against
 // Lanczos' iteration with the internal forces; and how it follows a cell that deforms.
 
-namespace
+namespace critical_step_bodies_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -341,4 +341,4 @@ namespace
                        range.high);
             }
   }
-} // namespace
+} // namespace critical_step_bodies_test

@@ -13,7 +13,7 @@
 // The critical step 2/omega_max of a cell against references.md, section 7, and against an
 // independent stiffness matrix (support/critical_step.h).
 
-namespace
+namespace critical_step_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -244,4 +244,4 @@ namespace
         EXPECT_NEAR(unshifted.get(k), alone, 2e-6 * alone);
       }
   }
-} // namespace
+} // namespace critical_step_test

@@ -16,7 +16,7 @@
 // The Delassus operator of two boxes on each other: its symmetry and its diagonal, and the bound of
 // its norm that the solver of the coupled contact problem is given.
 
-namespace
+namespace delassus_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -206,4 +206,4 @@ namespace
                                            std::make_pair(2u, 3u),
                                            std::make_pair(4u, 3u),
                                            std::make_pair(5u, 2u)));
-} // namespace
+} // namespace delassus_test

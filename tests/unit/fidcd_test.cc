@@ -12,7 +12,7 @@
 // FIDCD (28)-(35) on single masses: exact solutions of the motion, and exact solutions of the
 // difference equation where there are any.
 
-namespace
+namespace fidcd_test
 {
   using namespace akmon;
   using dealii::Tensor;
@@ -455,4 +455,4 @@ namespace
                 -3. * eta * mass.velocity() * dx,
                 1e-15);
   }
-} // namespace
+} // namespace fidcd_test

@@ -8,7 +8,7 @@
 
 // Free motion of a rigid body: exact conservation, exact solutions, order, work.
 
-namespace
+namespace free_motion_test
 {
   using namespace akmon;
   using Vector        = dealii::Tensor<1, 3>;
@@ -237,4 +237,4 @@ namespace
     EXPECT_NEAR((body.centre() - Vector({1., 0., 0.})).norm(), 0., 1e-12);
     EXPECT_NEAR((body.pose().place - Vector({2., 0., 0.})).norm(), 0., 2e-3);
   }
-} // namespace
+} // namespace free_motion_test

@@ -11,7 +11,7 @@
 // Sweeps lead to forces that solve the contact problem: no gap is negative and no force is outside
 // Coulomb's cone, forces only where gaps are closed, and slip against friction on the cone.
 
-namespace
+namespace gauss_seidel_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -74,4 +74,4 @@ namespace
 
 
   INSTANTIATE_TEST_SUITE_P(Friction, Sweeps, testing::Values(0., 0.3));
-} // namespace
+} // namespace gauss_seidel_test

@@ -4,10 +4,9 @@
 
 // The linear solver of contact systems.
 
-using namespace akmon;
-
-namespace
+namespace gmres_test
 {
+  using namespace akmon;
   using Vector = dealii::Tensor<1, 3>;
 
 
@@ -37,4 +36,4 @@ namespace
     EXPECT_EQ(x[0], Vector());
     EXPECT_EQ(image[1], Vector());
   }
-} // namespace
+} // namespace gmres_test

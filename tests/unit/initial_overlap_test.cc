@@ -8,11 +8,11 @@
 // Bodies in each other at the start: found wherever and however deep, and nothing that only
 // touches.
 
-using namespace akmon;
-using namespace akmon::test;
-
-namespace
+namespace initial_overlap_test
 {
+  using namespace akmon;
+  using namespace akmon::test;
+
   /// The two bars, 10 x 1 x 1 in 20 x 4 x 4 cells along x, changed by overrides.
   std::optional<BodyOverlap>
   overlap_of_bars(const std::vector<std::string> &overrides)
@@ -173,4 +173,4 @@ namespace
           EXPECT_NE(text.find(part), std::string::npos) << text;
       }
   }
-} // namespace
+} // namespace initial_overlap_test

@@ -14,10 +14,11 @@
 
 // J2 plasticity with the ARC-end update: against the rate equations, in rigid rotation, in lanes.
 
-namespace
+namespace j2_plastic_arc_end_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::j2_points;
 
   // E = 200, nu = 0.25 (lambda = mu = 80, M = 240), sigma_y = 1, h' = 10.
   const J2Plastic finite_strain_law{Elasticity::from_young(200., 0.25), 1., 10.};
@@ -266,4 +267,4 @@ namespace
         EXPECT_EQ(std::memcmp(results.data(), first.data(), sizeof(first)), 0) << shift;
       }
   }
-} // namespace
+} // namespace j2_plastic_arc_end_test

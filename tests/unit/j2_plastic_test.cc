@@ -11,10 +11,11 @@
 // then the return to the yield surface. Along a straight path of strain the deviator keeps its
 // direction, so the closed-form return is exact for any number of steps.
 
-namespace
+namespace j2_plastic_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::j2_points;
 
   // ---------------------------------------------------------------------------------------------
   // Closed forms, copper at 5 % (numbers also in references.md, section 8)
@@ -266,4 +267,4 @@ namespace
     EXPECT_GT(plastic_steps, 100u);
     EXPECT_LT(plastic_steps, 900u);
   }
-} // namespace
+} // namespace j2_plastic_test

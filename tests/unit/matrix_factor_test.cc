@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-namespace
+namespace matrix_factor_test
 {
   using akmon::MatrixFactor;
 
@@ -96,4 +96,4 @@ namespace
 
   // Full and sparse.
   INSTANTIATE_TEST_SUITE_P(Matrix, Rows, testing::Values(5u, 170u, 171u, 1000u));
-} // namespace
+} // namespace matrix_factor_test

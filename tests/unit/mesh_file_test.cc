@@ -15,7 +15,7 @@
 
 // Meshes read from files: formats, parts, and the files that are refused.
 
-namespace
+namespace mesh_file_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -294,4 +294,4 @@ namespace
     expect_contains(error_of(file(write("short.inp", "*NODE\n" + nodes))), "there are no elements");
     expect_contains(error_of("set Shape = file"), "[Bodies/b/File] Name = : allowed is");
   }
-} // namespace
+} // namespace mesh_file_test

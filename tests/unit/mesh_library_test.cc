@@ -14,7 +14,7 @@
 // The shapes of the library: exact and converging volumes, quality of the cells, parts, curved
 // surfaces, refused input.
 
-namespace
+namespace mesh_library_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -370,4 +370,4 @@ namespace
                                    [](const auto &x) { return std::hypot(x[1] - 20, x[2] - 30); }),
               1e-12);
   }
-} // namespace
+} // namespace mesh_library_test

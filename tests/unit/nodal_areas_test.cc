@@ -6,10 +6,11 @@
 
 // Shares of nodes in the area of the faces around them, by direction.
 
-namespace
+namespace nodal_areas_test
 {
   using namespace akmon;
   using namespace akmon::test;
+  using namespace akmon::test::two_cubes;
 
   TEST(NodalAreas, an_edge_has_no_part_of_the_side_that_is_not_touched)
   {
@@ -40,4 +41,4 @@ namespace
     EXPECT_NEAR(slanted, 0.8 * 6. + 0.6 * 8., 1e-13); // projected
     EXPECT_NEAR(areas.pressure(state.x, 0, Vector({0., 0., 0.})), 0., 0.);
   }
-} // namespace
+} // namespace nodal_areas_test

@@ -9,7 +9,7 @@
 // The one-point cell with hourglass control: exact for uniform strains on any mesh, controls
 // exactly the twelve patterns, turns with the cell.
 
-namespace
+namespace one_point_cell_test
 {
   using namespace akmon;
 
@@ -179,4 +179,4 @@ namespace
                       1e-14);
         }
   }
-} // namespace
+} // namespace one_point_cell_test

@@ -13,7 +13,7 @@
 #include <iterator>
 #include <limits>
 
-namespace
+namespace output_test
 {
   using namespace akmon;
   namespace fs = std::filesystem;
@@ -262,4 +262,4 @@ namespace
         }
     EXPECT_EQ(content_of(file("regular")), "old");
   }
-} // namespace
+} // namespace output_test

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace
+namespace parameter_reference_test
 {
   std::string
   reference()
@@ -53,4 +53,4 @@ namespace
         }
     EXPECT_GT(n_keys, 60u);
   }
-} // namespace
+} // namespace parameter_reference_test

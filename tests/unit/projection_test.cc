@@ -11,7 +11,7 @@
 // Closest point of a bilinear segment (4): plane segments by hand, warped ones against points made
 // by going along a known normal, and against a search over a fine grid.
 
-namespace
+namespace projection_test
 {
   using namespace akmon;
   using Vector  = dealii::Tensor<1, 3>;
@@ -344,4 +344,4 @@ namespace
     const auto on_line = project(Vector({0.7, 0.4, 0.3}), line);
     EXPECT_NEAR(on_line.offset.norm(), 0.5, 1e-14);
   }
-} // namespace
+} // namespace projection_test

@@ -8,10 +8,10 @@
 
 // Sums that do not depend on the order of their addends.
 
-using namespace akmon;
-
-namespace
+namespace reproducible_sums_test
 {
+  using namespace akmon;
+
   // Addends of all magnitudes that nearly cancel, against a sum in twice the precision.
   TEST(ReproducibleSums, have_the_same_bits_in_any_order_and_are_exact_to_round_off)
   {
@@ -62,4 +62,4 @@ namespace
     EXPECT_EQ(sums[5], infinity);
     EXPECT_EQ(sums[6], 3e300);
   }
-} // namespace
+} // namespace reproducible_sums_test

@@ -9,7 +9,7 @@
 
 // Signed distances, closest points and mass properties of analytic rigid shapes.
 
-namespace
+namespace rigid_shape_test
 {
   using namespace akmon;
   using Vector        = dealii::Tensor<1, 3>;
@@ -195,4 +195,4 @@ namespace
                 1e-13);
     EXPECT_NEAR(actual.inertia[2][2], zz, 1e-3 * zz);
   }
-} // namespace
+} // namespace rigid_shape_test

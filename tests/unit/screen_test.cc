@@ -7,7 +7,7 @@
 #include <sstream>
 #include <thread>
 
-namespace
+namespace screen_test
 {
   using namespace akmon;
 
@@ -166,4 +166,4 @@ namespace
     EXPECT_EQ(out.str(), is_root() ? "Warning: attention\n" : "");
     EXPECT_EQ(screen.warnings(), std::vector<std::string>{"attention"});
   }
-} // namespace
+} // namespace screen_test

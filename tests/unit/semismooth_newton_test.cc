@@ -16,7 +16,7 @@
 // friction against the conditions of Signorini and Coulomb, and against a plain projected gradient
 // run to the end.
 
-namespace
+namespace semismooth_newton_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -35,7 +35,7 @@ namespace
       if (bits & (1u << i))
         set.push_back(i);
     const unsigned int m = set.size();
-    Matrix L(m, std::vector<double>(m));
+    DenseMatrix L(m, std::vector<double>(m));
     std::vector<double> y(m);
     for (unsigned int i = 0; i < m; ++i)
       {
@@ -381,4 +381,4 @@ namespace
           EXPECT_LE((w[i] - w_plain[i]).norm(), 1e-8) << seed;
       }
   }
-} // namespace
+} // namespace semismooth_newton_test

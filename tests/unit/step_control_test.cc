@@ -7,10 +7,10 @@
 
 // The choice of time steps.
 
-using namespace akmon;
-
-namespace
+namespace step_control_test
 {
+  using namespace akmon;
+
   // Steps end at the end, and none is much shorter than the one before.
   TEST(StepControl, LastStepsShareTheRest)
   {
@@ -44,4 +44,4 @@ namespace
     EXPECT_EQ(control.choose(0.6, 1e9), 0.3);
     EXPECT_NEAR(control.choose(0.9, 1e9), 0.1, 1e-15);
   }
-} // namespace
+} // namespace step_control_test

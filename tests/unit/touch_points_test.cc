@@ -10,7 +10,7 @@
 
 // Where rigid shapes touch each other: closest points of corners, edges and rims.
 
-namespace
+namespace touch_points_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -195,4 +195,4 @@ namespace
         EXPECT_NEAR((points[0].x - Vector({0.5, 0.5, z})).norm(), 0., 1e-8);
       }
   }
-} // namespace
+} // namespace touch_points_test

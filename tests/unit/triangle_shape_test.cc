@@ -13,7 +13,7 @@
 
 // Surfaces of triangles: STL files, repair, distances, mass.
 
-namespace
+namespace triangle_shape_test
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -318,4 +318,4 @@ namespace
         EXPECT_EQ(has_tip, height == 1.);
       }
   }
-} // namespace
+} // namespace triangle_shape_test

@@ -12,10 +12,10 @@
 // with both sides slave and master; and the noise of the interface velocity of all three ways to
 // compute contact, for the documents (formulation.md section 6).
 
-using namespace akmon::test;
-
-namespace
+namespace bars_any_meshes
 {
+  using namespace akmon::test;
+
   constexpr double v0 = 202.2, force = 29998.604, mass_of_bar = 7.337e-4 * 10.;
 
 
@@ -125,4 +125,4 @@ namespace
         std::cout << std::endl;
       }
   }
-} // namespace
+} // namespace bars_any_meshes

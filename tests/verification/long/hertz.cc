@@ -8,10 +8,10 @@
 // force, contact radius, largest pressure and contact time of references.md section 5 within 2 % on
 // the finest, converging.
 
-using namespace akmon::test;
-
-namespace
+namespace hertz
 {
+  using namespace akmon::test;
+
   TEST(Hertz, press)
   {
     double change = 1., last = 0.;
@@ -52,4 +52,4 @@ namespace
     EXPECT_NEAR(last.pressure, 1., 0.02);
     EXPECT_NEAR(last.restitution, restitution, 0.02);
   }
-} // namespace
+} // namespace hertz

@@ -12,10 +12,10 @@
 // and ends as the run that nobody disturbed. A checkpoint every third step makes a good part of the
 // moments fall into their writing.
 
-using namespace akmon::test;
-
-namespace
+namespace killed_runs
 {
+  using namespace akmon::test;
+
   const std::vector<std::string> overrides = {"Checkpoint/Steps=3", "Output/Fields interval=1e-5"};
 
 
@@ -72,4 +72,4 @@ namespace
     RecordProperty("finished_in_between", int(n_finished));
     EXPECT_GT(n_while_writing, 0u);
   }
-} // namespace
+} // namespace killed_runs

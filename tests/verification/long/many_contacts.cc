@@ -12,10 +12,10 @@
 // is crushed until it touches itself, soft spheres poured into a box (fewer than in the shipped
 // case). Run to the end on the default parameters.
 
-using namespace akmon::test;
-
-namespace
+namespace many_contacts
 {
+  using namespace akmon::test;
+
   // At every step.
   Table
   run_and_check(const std::string &name, std::vector<std::string> changes = {})
@@ -68,4 +68,4 @@ namespace
     EXPECT_GT(weight.back(), 0.);
     EXPECT_GE(history["friction_dissipation"].back(), 0.01 * history["external_work"].back());
   }
-} // namespace
+} // namespace many_contacts

@@ -8,10 +8,10 @@
 // A million steps of two small bars that hit each other and then fly apart, vibrating: linear and
 // angular momentum stay to 1e-10, and the memory is that of a tenth of the steps.
 
-using namespace akmon::test;
-
-namespace
+namespace million_steps
 {
+  using namespace akmon::test;
+
   struct LongRun
   {
     double momentum, angular_momentum; ///< largest change over sum m |v_0|, and over that times L
@@ -77,4 +77,4 @@ namespace
                            MillionSteps,
                            testing::Values("decoupled", "coupled"),
                            [](const auto &info) { return info.param; });
-} // namespace
+} // namespace million_steps

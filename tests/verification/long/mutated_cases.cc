@@ -14,10 +14,10 @@
 // and nothing may take longer than a minute. Where a key is set for the first time in all cases it
 // gets all values, later three of them in turn.
 
-using namespace akmon::test;
-
-namespace
+namespace mutated_cases
 {
+  using namespace akmon::test;
+
   const std::vector<std::string> values =
     {"", "0", "-1", "1e300", "1e-300", "nan", "word", "0, 0, 0", "1000000000", "0; t; sqrt(-1)"};
   constexpr unsigned int largest_to_run = 1000; ///< cells; larger cases are only built
@@ -184,4 +184,4 @@ namespace
                            MutatedCase,
                            testing::ValuesIn(shipped_cases()),
                            [](const auto &info) { return info.param; });
-} // namespace
+} // namespace mutated_cases

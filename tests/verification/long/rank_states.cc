@@ -4,10 +4,10 @@
 
 // The state on 1, 2, 3 and 4 ranks has the same hash with the decoupled solver.
 
-using namespace akmon::test;
-
-namespace
+namespace rank_states
 {
+  using namespace akmon::test;
+
   class DecoupledState : public testing::TestWithParam<RankCase>
   {
   };
@@ -34,4 +34,4 @@ namespace
                     RankCase{"sliding_block", {"Time/End=0.1"}},
                     RankCase{"two_spheres", {"Time/End=0.5"}}),
     [](const auto &info) { return std::to_string(info.index) + "_" + info.param.name; });
-} // namespace
+} // namespace rank_states

@@ -10,10 +10,10 @@
 // Histories of the short shipped cases on 1, 2 and 3 ranks: the motion and the contact force of
 // every node come out with the same bits; sums over ranks (energies, momenta) agree to round-off.
 
-using namespace akmon::test;
-
-namespace
+namespace ranks_agree
 {
+  using namespace akmon::test;
+
   constexpr double accuracy = 1e-10;
 
 
@@ -165,4 +165,4 @@ namespace
       // More ranks than cells, and no contact.
       ShippedCase{"one_cell", 1., 1., 1., "", {}}),
     [](const auto &info) { return std::string(info.param.name); });
-} // namespace
+} // namespace ranks_agree

@@ -3,10 +3,10 @@
 // The bar on a rigid base on the finest mesh of the references, and the whole bar refined as the
 // shipped case suggests. Coarser meshes: verification/quick/rigid_base_bar_coarse.cc.
 
-using namespace akmon::test;
-
-namespace
+namespace rigid_base_bar
 {
+  using namespace akmon::test;
+
   TEST(RigidBaseBar, quarter_of_12288_cells)
   {
     const auto bar = run_bar_on_wall("rigid_base_bar", quarter_of_rigid_base_bar(2));
@@ -37,4 +37,4 @@ namespace
         EXPECT_LE(bar.momentum_error, 1e-12);
       }
   }
-} // namespace
+} // namespace rigid_base_bar

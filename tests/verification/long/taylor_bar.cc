@@ -3,10 +3,10 @@
 // The copper Taylor bar on the finest mesh of the references, and one finer still against
 // published results. Coarser meshes: verification/quick/taylor_bar_coarse.cc.
 
-using namespace akmon::test;
-
-namespace
+namespace taylor_bar
 {
+  using namespace akmon::test;
+
   TEST(TaylorBar, unilateral)
   {
     const auto bar = run_taylor_bar(taylor_2400);
@@ -55,4 +55,4 @@ namespace
     expect_rim_lifted(bar);
     EXPECT_LE(bar.momentum_error, 1e-12);
   }
-} // namespace
+} // namespace taylor_bar

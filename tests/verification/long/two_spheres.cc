@@ -11,10 +11,10 @@
 // axisymmetric solution; oblique ones against the rigid limits and the partial slip of Maw, Barber
 // and Fawcett (1976).
 
-using namespace akmon::test;
-
-namespace
+namespace two_spheres
 {
+  using namespace akmon::test;
+
   constexpr double v = 0.01, hertz_force = .0125244, hertz_time = 12.3047;
   constexpr double force = 1.073 * hertz_force, time_of_contact = 0.953 * hertz_time,
                    restitution = .9984;
@@ -304,4 +304,4 @@ namespace
     for (std::size_t i = 1; i < work.size(); ++i)
       EXPECT_GE(work[i] - work[i - 1], -1e-10 * collision.history["kinetic_energy"][0]) << i;
   }
-} // namespace
+} // namespace two_spheres

@@ -10,7 +10,7 @@
 // The critical step of the Taylor bar through its deformation against the assembled system's own,
 // and what mass scaling says of itself.
 
-namespace
+namespace assembled_step
 {
   using namespace akmon;
   using namespace akmon::test;
@@ -84,4 +84,4 @@ namespace
       warned = warned || warning.second.data().find("mass scaling adds") == 0;
     EXPECT_TRUE(warned);
   }
-} // namespace
+} // namespace assembled_step

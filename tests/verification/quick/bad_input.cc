@@ -11,10 +11,10 @@
 // What a user gets wrong is told in one line that names the file, the place and what is allowed;
 // the program ends with status 1 and touches no output directory.
 
-using namespace akmon::test;
-
-namespace
+namespace bad_input
 {
+  using namespace akmon::test;
+
   namespace fs = std::filesystem;
 
   std::string
@@ -469,4 +469,4 @@ end
             EXPECT_FALSE(fs::exists(output));
           }
   }
-} // namespace
+} // namespace bad_input

@@ -14,11 +14,11 @@
 
 // Tied contact on meshes that do not match.
 
-using akmon::shortest_text;
-using namespace akmon::test;
-
-namespace
+namespace bonds
 {
+  using akmon::shortest_text;
+  using namespace akmon::test;
+
   constexpr double E = 3.0e7, rho = 7.337e-4, h = 0.5, length = 20., area = 64.;
   const double c = std::sqrt(E / rho), dt = h / c;
 
@@ -243,4 +243,4 @@ namespace
     EXPECT_EQ(history["interface.force_x"].back(), 0.);
     EXPECT_NEAR(history["left_face.velocity_x"].back(), -10., 1e-6);
   }
-} // namespace
+} // namespace bonds

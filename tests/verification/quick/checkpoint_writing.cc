@@ -8,10 +8,10 @@
 
 // Checkpoints on request, and what happens when they cannot be written.
 
-using namespace akmon::test;
-
-namespace
+namespace checkpoint_writing
 {
+  using namespace akmon::test;
+
   namespace fs = std::filesystem;
 
   class CheckpointWriting : public testing::Test
@@ -132,4 +132,4 @@ namespace
               std::string::npos)
       << file_content(output);
   }
-} // namespace
+} // namespace checkpoint_writing

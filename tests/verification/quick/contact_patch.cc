@@ -8,10 +8,9 @@
 // inclined one that friction keeps from sliding. A single pass cannot do that (references.md
 // section 6); it is measured, and exact on nested meshes.
 
-using namespace akmon::test;
-
-namespace
+namespace contact_patch
 {
+  using namespace akmon::test;
 
 
   std::string
@@ -99,4 +98,4 @@ namespace
                   1e-6 * run.history["external_work"].back());
       }
   }
-} // namespace
+} // namespace contact_patch

@@ -11,10 +11,10 @@
 // plane obliquely, where one-dimensional waves are exact (references.md section 5); and bars of
 // non-matching meshes that rub each other.
 
-using namespace akmon::test;
-
-namespace
+namespace coupled_friction
 {
+  using namespace akmon::test;
+
   const std::string decoupled = "Contact solver/Type=decoupled";
 
 
@@ -343,4 +343,4 @@ namespace
     for (const char *const axis : {"x", "y", "z"})
       EXPECT_EQ(history[std::string("interface.force_") + axis].back(), 0.);
   }
-} // namespace
+} // namespace coupled_friction

@@ -5,10 +5,10 @@
 // The state on 1, 2 and 3 ranks has the same hash with the coupled solver too, wherever the ranks
 // cut the bodies and their interfaces.
 
-using namespace akmon::test;
-
-namespace
+namespace coupled_ranks
 {
+  using namespace akmon::test;
+
   class CoupledState : public testing::TestWithParam<RankCase>
   {
   };
@@ -59,4 +59,4 @@ namespace
                     RankCase{"sphere_on_slab", {"Time/End=2", "Bodies/slab/Box/Cells=6, 6, 6"}},
                     RankCase{"block_tower", {"Time/End=0.01"}}),
     [](const auto &info) { return std::to_string(info.index) + "_" + info.param.name; });
-} // namespace
+} // namespace coupled_ranks

@@ -10,10 +10,9 @@
 
 // Bricks that meet with their edges: neither has a node that sees a face of the other.
 
-using namespace akmon::test;
-
-namespace
+namespace edge_contact
 {
+  using namespace akmon::test;
   using Vector = dealii::Tensor<1, 3>;
   using Matrix = dealii::Tensor<2, 3>;
 
@@ -381,4 +380,4 @@ end
     EXPECT_EQ(file_content(again + "/" + checkpoints[1]),
               file_content(reference + "/" + checkpoints[1]));
   }
-} // namespace
+} // namespace edge_contact

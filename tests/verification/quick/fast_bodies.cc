@@ -9,10 +9,10 @@
 // step makes of it. A bullet of one cell flies at a plate of few cells at up to a quarter of the
 // wave speed, so that it moves by a sixth of its size in a step.
 
-using namespace akmon::test;
-
-namespace
+namespace fast_bodies
 {
+  using namespace akmon::test;
+
   const std::string common = R"(
 subsection Materials
   set Names = stuff
@@ -114,4 +114,4 @@ end
                                std::to_string(thickness));
         }
   }
-} // namespace
+} // namespace fast_bodies

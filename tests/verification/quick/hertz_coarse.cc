@@ -5,10 +5,10 @@
 // Hertz press and impact on a coarse mesh, at three cells under the contact radius. Bounds are what
 // this mesh allows; verification/long/hertz.cc converges to references.md section 5.
 
-using namespace akmon::test;
-
-namespace
+namespace hertz_coarse
 {
+  using namespace akmon::test;
+
   TEST(HertzCoarse, press)
   {
     const auto ratios = press(8, 0.15);
@@ -26,4 +26,4 @@ namespace
     EXPECT_NEAR(ratios.radius, 1., 0.01);
     EXPECT_NEAR(ratios.pressure, 1., 0.01);
   }
-} // namespace
+} // namespace hertz_coarse

@@ -9,10 +9,10 @@
 // contact.csv: forces, moments, areas, pressures and dissipation of every interface, against exact
 // answers.
 
-using namespace akmon::test;
-
-namespace
+namespace interface_history
 {
+  using namespace akmon::test;
+
   // The contact.csv of a case, run on ranks.
   Table
   contact_rows(const std::string &name,
@@ -158,4 +158,4 @@ namespace
       }
     EXPECT_NEAR(one["interface.area"].back(), 1., 1e-3);
   }
-} // namespace
+} // namespace interface_history

@@ -8,10 +8,10 @@
 // An elastic die pressed into a slab and drawn over it, with friction and meshes that do not match:
 // no exact solution, but no pair may be lost, the energies must add up and friction never gives.
 
-using namespace akmon::test;
-
-namespace
+namespace ironing
 {
+  using namespace akmon::test;
+
   class Ironing : public testing::TestWithParam<const char *>
   {
   };
@@ -51,4 +51,4 @@ namespace
                            Ironing,
                            testing::Values("symmetric", "single"),
                            [](const auto &info) { return std::string(info.param); });
-} // namespace
+} // namespace ironing

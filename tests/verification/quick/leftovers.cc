@@ -8,10 +8,10 @@
 
 // What killed runs leave behind outside their output directory does not stop later ones.
 
-using namespace akmon::test;
-
-namespace
+namespace leftovers
 {
+  using namespace akmon::test;
+
   // The semaphore that Open MPI's shared file pointers keep for a file's name, as a run that was
   // killed while it held it leaves it: taken.
   class TakenSemaphore
@@ -58,4 +58,4 @@ namespace
     EXPECT_EQ(run.wait(), 0);
     EXPECT_FALSE(checkpoints_in(scratch.path).empty());
   }
-} // namespace
+} // namespace leftovers

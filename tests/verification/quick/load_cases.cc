@@ -8,10 +8,10 @@
 // Loads and starts that contact models use, against exact motions: a force history, gravity that
 // damping lets settle, velocities by position; and free rigid bodies of several shapes.
 
-using namespace akmon::test;
-
-namespace
+namespace load_cases
 {
+  using namespace akmon::test;
+
   constexpr double pi = 3.14159265358979323846;
 
   const std::string sled_file = "Obstacles/sled/File/Name=" AKMON_SOURCE_DIR "/prm/meshes/sled.stl";
@@ -119,4 +119,4 @@ namespace
     EXPECT_LE(largest_of(history["max_penetration_rel"]), 1e-7);
     EXPECT_GT(history["friction_dissipation"].back(), 1.);
   }
-} // namespace
+} // namespace load_cases

@@ -8,10 +8,10 @@
 // Surface loads and body force against Newton's second law: the momentum is the impulse. A free
 // brick 2 x 1 x 1 with mass 2 under the load; its faces keep their areas to the small strains here.
 
-using namespace akmon::test;
-
-namespace
+namespace loads
 {
+  using namespace akmon::test;
+
   Table
   run_brick(const std::string &sections)
   {
@@ -116,4 +116,4 @@ namespace
     EXPECT_NEAR(history["damping_dissipation"].back(), 9. - rest * rest / 4., 1e-9);
     EXPECT_LT(std::abs(history["energy_error"].back()), 1e-9);
   }
-} // namespace
+} // namespace loads

@@ -11,11 +11,11 @@
 // Lumped masses of bricks, distorted cells and cylinders: integrals of the shape functions, and all
 // of the mass.
 
-using namespace akmon;
-using namespace akmon::test;
-
-namespace
+namespace lumped_masses
 {
+  using namespace akmon;
+  using namespace akmon::test;
+
   // Volume by the divergence theorem: under a bilinear face it is the mean of both splits into
   // triangles.
   double
@@ -98,7 +98,7 @@ namespace
         for (unsigned int k = 0; k < 3; ++k)
           {
             const double xi[3] = {at[i], at[j], at[k]};
-            Matrix J;
+            dealii::Tensor<2, 3> J;
             std::array<double, 8> N;
             for (unsigned int v = 0; v < 8; ++v)
               {
@@ -143,4 +143,4 @@ namespace
     EXPECT_LT(mass, 7800. * pi * .04 * .8);
     EXPECT_GT(mass, .9 * 7800. * pi * .04 * .8);
   }
-} // namespace
+} // namespace lumped_masses

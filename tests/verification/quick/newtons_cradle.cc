@@ -8,10 +8,10 @@
 // Newton's cradle of five elastic bars of the same acoustic length, with meshes that do not match:
 // by one-dimensional waves the last one leaves with all momentum and the others stay at rest.
 
-using namespace akmon::test;
-
-namespace
+namespace newtons_cradle
 {
+  using namespace akmon::test;
+
   constexpr double v0 = 202.2, mass = 7.337e-4 * 10., length = 10., force = 14999.302;
   const double c = std::sqrt(3.0e7 / 7.337e-4), strike = 0.01 / v0, transit = length / c;
 
@@ -81,4 +81,4 @@ namespace
           ASSERT_LE(std::abs(history[std::string(contacts[i]) + ".force_x"][row]), 1e-6 * force);
       }
   }
-} // namespace
+} // namespace newtons_cradle

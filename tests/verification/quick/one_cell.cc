@@ -14,12 +14,12 @@
 // (references.md, section 8: E = 1000, nu = 0.25, lambda = mu = 400, M = 1200), free flight and
 // fall of the shipped case one_cell.
 
-using namespace akmon;
-using namespace akmon::test;
-
-namespace
+namespace one_cell
 {
-  using Path = std::function<Matrix(double)>; // deformation gradient at 0 <= t <= 1
+  using namespace akmon;
+  using namespace akmon::test;
+  using Matrix = dealii::Tensor<2, 3>;
+  using Path   = std::function<Matrix(double)>; // deformation gradient at 0 <= t <= 1
 
 
   // A brick whose nodes are led along x = F(t) X.
@@ -321,4 +321,4 @@ namespace
         ASSERT_NEAR(history["strain_energy"][i], 0., 1e-12);
       }
   }
-} // namespace
+} // namespace one_cell

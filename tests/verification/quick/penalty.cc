@@ -11,10 +11,10 @@
 // Penalty contact: the stiffness is the one documented, the time step follows it, and what it costs
 // is reported.
 
-using namespace akmon::test;
-
-namespace
+namespace penalty
 {
+  using namespace akmon::test;
+
   constexpr double v0 = 202.2, force = 29998.604, K = 1.0e7, scale = 0.1, depth = 0.5;
 
 
@@ -127,4 +127,4 @@ namespace
     EXPECT_NE(result.output.find("penalty contact lets surfaces penetrate"), std::string::npos)
       << result.output;
   }
-} // namespace
+} // namespace penalty

@@ -4,10 +4,10 @@
 
 // What looks like a mistake is told once at the start; the shipped cases have none.
 
-using namespace akmon::test;
-
-namespace
+namespace plausibility
 {
+  using namespace akmon::test;
+
   struct Oddity
   {
     std::string name, file;
@@ -103,4 +103,4 @@ namespace
         }
     EXPECT_GT(n, 10u);
   }
-} // namespace
+} // namespace plausibility

@@ -4,10 +4,10 @@
 
 // Cells that are shared out anew change nothing but who computes them.
 
-using namespace akmon::test;
-
-namespace
+namespace repartition
 {
+  using namespace akmon::test;
+
   class Repartition : public testing::TestWithParam<const char *>
   {
   protected:
@@ -71,4 +71,4 @@ namespace
                            Repartition,
                            testing::Values("decoupled", "coupled"),
                            [](const auto &info) { return std::string(info.param); });
-} // namespace
+} // namespace repartition

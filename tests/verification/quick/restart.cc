@@ -8,10 +8,10 @@
 // same ranks, and rows and field files without gap or double. On another number of ranks the motion
 // has the same bits with the decoupled solver.
 
-using namespace akmon::test;
-
-namespace
+namespace restart
 {
+  using namespace akmon::test;
+
   namespace fs = std::filesystem;
 
   struct RestartedCase
@@ -271,4 +271,4 @@ namespace
     EXPECT_NEAR(history["time"].back(), 1.4e-4, 1e-16);
     EXPECT_NE(file_content(scratch.path + "/parameters.prm").find("1.4e-4"), std::string::npos);
   }
-} // namespace
+} // namespace restart

@@ -3,10 +3,10 @@
 // The bar on a rigid base on meshes small enough for every build; the finest mesh and the whole bar
 // are in verification/long/rigid_base_bar.cc.
 
-using namespace akmon::test;
-
-namespace
+namespace rigid_base_bar_coarse
 {
+  using namespace akmon::test;
+
   TEST(RigidBaseBarCoarse, quarter_of_192_cells)
   {
     expect_rigid_base_bar(run_bar_on_wall("rigid_base_bar", quarter_of_rigid_base_bar(0)),
@@ -71,4 +71,4 @@ namespace
     EXPECT_LE(errors[2], errors[1] / 3.);
     EXPECT_LE(errors[1], 1e-3);
   }
-} // namespace
+} // namespace rigid_base_bar_coarse

@@ -7,10 +7,10 @@
 
 // Free rigid bodies among themselves: rolling and sliding cylinders, a box that falls.
 
-using namespace akmon::test;
-
-namespace
+namespace rigid_bodies
 {
+  using namespace akmon::test;
+
   constexpr double g = 9.81, pi = 3.14159265358979323846;
   const double across = g * std::cos(pi / 6.), along = g * std::sin(pi / 6.);
 
@@ -135,4 +135,4 @@ namespace
         EXPECT_LT(std::abs(history["energy_error"][i]), 1e-3);
       }
   }
-} // namespace
+} // namespace rigid_bodies

@@ -10,10 +10,10 @@
 // Rigid obstacles and tools: nodes stay out of them, rigid bodies move as mechanics says, and
 // energies add up. A soft slab 1 x 1 x 1/2 with its top at z = 0 is what they hit.
 
-using namespace akmon::test;
-
-namespace
+namespace rigid_obstacles
 {
+  using namespace akmon::test;
+
   constexpr double pi = 3.14159265358979323846, g = 9.81;
 
   const std::string slab = "subsection Time\n set End = 0.05\n set Step = 1e-4\nend\n"
@@ -63,14 +63,14 @@ namespace
     std::string name, keys;
   };
 
-  class PressedTool : public ::testing::TestWithParam<Shape>
+  class ShapedTool : public ::testing::TestWithParam<Shape>
   {
   };
 
 
   // Pressed in by a tenth of the slab and lifted, with friction, turning: round-off, in both
   // solvers, and the work done is what the energies take.
-  TEST_P(PressedTool, NodesStayOutside)
+  TEST_P(ShapedTool, NodesStayOutside)
   {
     for (const char *const solver : {"coupled", "decoupled"})
       {
@@ -97,7 +97,7 @@ namespace
 
   INSTANTIATE_TEST_SUITE_P(
     Shapes,
-    PressedTool,
+    ShapedTool,
     ::testing::Values(Shape{"sphere",
                             "  set Shape = sphere\n  set Point = 0, 0, 0.501\n"
                             "  subsection Sphere\n   set Radius = 0.5\n  end\n"},
@@ -261,4 +261,4 @@ namespace
         EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1);
       }
   }
-} // namespace
+} // namespace rigid_obstacles

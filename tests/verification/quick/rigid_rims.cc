@@ -9,10 +9,10 @@
 // other, a heap in a container. Nothing gets into anything, as the poses in the history show, and
 // what happens keeps momenta and energy.
 
-using namespace akmon::test;
-
-namespace
+namespace rigid_rims
 {
+  using namespace akmon::test;
+
   constexpr double g = 9.81;
 
   const RigidPart ground{"ground", "plane", {}, "", ""};
@@ -231,4 +231,4 @@ namespace
           EXPECT_NEAR(momentum[i] - momentum[i - 1], 0.5e-3 * (force(i) + force(i - 1)), 1e-9);
         }
   }
-} // namespace
+} // namespace rigid_rims

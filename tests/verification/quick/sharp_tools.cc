@@ -10,10 +10,10 @@
 // Sharp corners and edges of rigid tools against a slab 1 x 1 x 1/2 whose faces, 1/4 wide, are
 // larger than the tools or crossed by their edges: no node of the slab sees them.
 
-using namespace akmon::test;
-
-namespace
+namespace sharp_tools
 {
+  using namespace akmon::test;
+
   // What a tool is pressed in with, drawn along and lifted.
   struct Press
   {
@@ -253,4 +253,4 @@ namespace
         EXPECT_LE(change_of_momentum(history) / (1e-3 * 2000.), 1e-12);
       }
   }
-} // namespace
+} // namespace sharp_tools

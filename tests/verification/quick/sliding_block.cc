@@ -10,10 +10,10 @@
 // g). Slope: sticks iff tan(angle) <= mu, else a = g (sin - mu cos). While every node in contact
 // slides forward, v_x + mu v_z = v0 + (g_x + mu g_z) t for the centre of mass, bouncing or not.
 
-using namespace akmon::test;
-
-namespace
+namespace sliding_block
 {
+  using namespace akmon::test;
+
   constexpr double g = 9.81, mass = 500., pi = 3.14159265358979323846;
   const std::string friction = "Obstacles/ground/Friction coefficient=";
   const std::string end      = "Time/End=";
@@ -255,4 +255,4 @@ namespace
     EXPECT_LE(forward, 1e-12);
     EXPECT_GE(central, 1e-6);
   }
-} // namespace
+} // namespace sliding_block

@@ -11,10 +11,10 @@
 // Two elastic spheres collide obliquely with friction: momentum and angular momentum to round-off,
 // friction never gives. Rebound laws on finer meshes: verification/long/two_spheres.cc.
 
-using namespace akmon::test;
-
-namespace
+namespace spheres_oblique
 {
+  using namespace akmon::test;
+
   TEST(SpheresOblique, keep_momenta_and_lose_energy_by_friction)
   {
     constexpr double v = 0.01, v_t = 0.005, mu = 0.3;
@@ -82,4 +82,4 @@ namespace
     EXPECT_LE(fine, 0.75 * coarse);
     EXPECT_LE(std::abs(fine), 0.1 * reference);
   }
-} // namespace
+} // namespace spheres_oblique

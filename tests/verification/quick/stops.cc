@@ -4,10 +4,10 @@
 
 // A run that must not go on says so in one line, leaves its last state to look at, and fails.
 
-using namespace akmon::test;
-
-namespace
+namespace stops
 {
+  using namespace akmon::test;
+
   void
   expect_stop(const std::string &file,
               const std::vector<std::string> &overrides,
@@ -155,4 +155,4 @@ namespace
               std::string::npos)
       << forced.output;
   }
-} // namespace
+} // namespace stops

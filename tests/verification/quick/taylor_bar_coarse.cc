@@ -3,10 +3,10 @@
 // The copper Taylor bar on meshes small enough for every build; finer ones are in
 // verification/long/taylor_bar.cc.
 
-using namespace akmon::test;
-
-namespace
+namespace taylor_bar_coarse
 {
+  using namespace akmon::test;
+
   TEST(TaylorBarCoarse, unilateral)
   {
     const auto bar = run_taylor_bar(taylor_972);
@@ -50,4 +50,4 @@ namespace
     expect_taylor_bar(run_taylor_bar(taylor_288, {"Bodies/bar/Integration=full"}),
                       {4.63, 20.26, 0.8});
   }
-} // namespace
+} // namespace taylor_bar_coarse

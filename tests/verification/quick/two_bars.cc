@@ -7,10 +7,10 @@
 // Two identical elastic bars, AIAA 2003-1599 section 9.1; exact 1D solution: impact at g/v0,
 // release 2 L sqrt(rho/E) later, interface at rest in between under the force rho c v0 A.
 
-using namespace akmon::test;
-
-namespace
+namespace two_bars
 {
+  using namespace akmon::test;
+
   constexpr double v0 = 202.2, force = 29998.604, t_impact = 4.945598e-5, t_release = 1.4836335e-4;
   constexpr double dt = 0.7274e-6, mass_of_bar = 7.337e-4 * 10.;
 
@@ -72,4 +72,4 @@ namespace
   INSTANTIATE_TEST_SUITE_P(GapModels,
                            TwoBars,
                            testing::Values("point to segment", "point to point"));
-} // namespace
+} // namespace two_bars

@@ -12,11 +12,11 @@
 
 // The two bars turned, shifted and seen from a moving frame: the same motion, to round-off.
 
-using namespace akmon::test;
-using Vector = dealii::Tensor<1, 3>;
-
-namespace
+namespace two_bars_moved
 {
+  using namespace akmon::test;
+  using Vector = dealii::Tensor<1, 3>;
+
   constexpr double v0 = 202.2, gap = 0.01, force = 29998.604, pressure = 29998.604;
   constexpr double mass     = 2. * 7.337e-4 * 10.; // of both bars
   constexpr double accuracy = 1e-9;
@@ -268,4 +268,4 @@ namespace
                            "_point_to_point" :
                            "_point_to_segment");
     });
-} // namespace
+} // namespace two_bars_moved

@@ -18,10 +18,10 @@
 // loses the kinetic energy of the nodes that strike, 1/(2n) of the bars' (n = 100 cells), and
 // resolves a front within a cell; a step below the critical one adds dispersion.
 
-using namespace akmon::test;
-
-namespace
+namespace unequal_bars
 {
+  using namespace akmon::test;
+
   constexpr double density = 7.337e-4, modulus = 3e7, v0 = 202.2, length = 10., n = 100.;
   const double c = std::sqrt(modulus / density), h = length / n;
 
@@ -422,4 +422,4 @@ namespace
           }
       }
   }
-} // namespace
+} // namespace unequal_bars
