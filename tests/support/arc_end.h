@@ -7,9 +7,10 @@
 
 #include <cmath>
 #include <functional>
-#include <iostream>
 #include <random>
 #include <string>
+
+#include "support/report.h"
 
 namespace akmon::test::arc_end_paths
 {
@@ -158,14 +159,6 @@ namespace akmon::test::arc_end_paths
   observed_order(const double error, const double error_half_step)
   {
     return std::log2(error / error_half_step);
-  }
-
-
-  inline void
-  report(const std::string &key, const double value)
-  {
-    ::testing::Test::RecordProperty(key, std::to_string(value));
-    std::cout << "  " << key << " = " << value << '\n';
   }
 
 
