@@ -73,8 +73,8 @@ def main(directory):
     ax = figure.add_subplot(1, 3, 3)
     deep = history["max_penetration_rel"] > 0
     ax.semilogy(history["time"][deep], history["max_penetration_rel"][deep], ".", color=NUMERICAL, markersize=3)
-    ax.axhline(1e-7, color="0.5", linewidth=1)
-    ax.set(title="Penetration over cell size, every step", xlabel="time (s)", ylim=(1e-14, 1e-5))
+    ax.axhline(1e-10, color="0.5", linewidth=1)  # the tolerance
+    ax.set(title="Penetration over cell size, every step", xlabel="time (s)", ylim=(1e-15, 1e-7))
     save(figure, directory, "dropped_box.png")
 
 
