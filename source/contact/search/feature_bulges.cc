@@ -60,6 +60,23 @@ namespace akmon
   }
 
 
+  // A lower bound of the gap along an edge over a face, without looking for where it is least: the
+  // twist of a bilinear face bulges by a quarter of itself at most.
+  double
+  FeatureSearch::least_gap_over(const ContactNodes::Field &x,
+                                const Line &line,
+                                const unsigned int face,
+                                const std::array<double, 2> &stretch) const
+  {
+    constexpr double surely = 0.5; // of the twist
+
+    const auto corners = surface.segment(x, face);
+    return std::min(gap_over(x, line.a + stretch[0] * line.u, face),
+                    gap_over(x, line.a + stretch[1] * line.u, face)) -
+           surely * (corners[0] - corners[1] + corners[2] - corners[3]).norm();
+  }
+
+
   // Where a third of an edge over a face that bulges is closest to it: at one of its ends, or where
   // it is parallel to the face. What is at the ends of the edge over the face has other pairs.
   double
@@ -116,14 +133,12 @@ namespace akmon
   }
 
 
-  // Whether an edge is above a face no further than a distance, and may touch it; then the part of
-  // the edge that is above.
+  // Whether an edge may touch a face that is no further than a distance.
   bool
-  FeatureSearch::is_over(const ContactNodes::Field &x,
+  FeatureSearch::is_near(const ContactNodes::Field &x,
                          const Line &line,
                          const unsigned int f,
-                         const double reach,
-                         std::array<double, 2> &stretch) const
+                         const double reach) const
   {
     const auto &face   = surface.get_faces()[f];
     const auto corners = surface.segment(x, f);
@@ -132,7 +147,7 @@ namespace akmon
     for (const auto &corner : corners)
       wide = std::max(wide, (corner - middle).norm());
     return line.distance(middle) <= wide + std::max(reach, deepest_part * face.depth) &&
-           line.may_touch(unit_normal(corners)) && stretch_over(x, line, f, stretch);
+           line.may_touch(unit_normal(corners));
   }
 
 
@@ -156,12 +171,17 @@ namespace akmon
     constexpr double least_sag = 1e-9; // of the face's size: less is no bulge
 
     const auto lines = lines_now();
+    near_edges.clear();
     for (const auto &[feature, f] : faces_of_edges)
       {
         const auto &face = surface.get_faces()[f];
         const Line &line = lines[feature];
+        if (!is_near(view.x, line, f, view.reach))
+          continue;
+        near_edges.push_back({{feature, f}});
         std::array<double, 2> stretch;
-        if (!is_over(view.x, line, f, view.reach, stretch) ||
+        if (!stretch_over(view.x, line, f, stretch) ||
+            least_gap_over(view.x, line, f, stretch) > view.reach ||
             sag_over(view.x, line, f, stretch) + bulge_to_come(view, f) < least_sag * face.size)
           continue;
         for (unsigned int part = 0; part < 3; ++part)
@@ -188,11 +208,14 @@ namespace akmon
                              const double tolerance,
                              std::vector<ContactPair> &joining)
   {
-    for (const auto &[feature, f] : faces_of_edges)
+    for (const auto &[feature, f] : near_edges)
       {
-        const Line line = line_of(pose, feature);
+        const Line line   = line_of(pose, feature);
+        const double size = surface.get_faces()[f].size;
         std::array<double, 2> stretch;
-        if (!is_over(reached.x, line, f, 0., stretch))
+        if (!line.may_touch(unit_normal(surface.segment(reached.x, f))) ||
+            !stretch_over(reached.x, line, f, stretch) ||
+            least_gap_over(reached.x, line, f, stretch) >= -tolerance * size)
           continue;
         double seen         = 0.;
         unsigned int number = 0;
@@ -204,7 +227,6 @@ namespace akmon
                 seen   = std::min(seen, gap_over(reached.x, line.a + record.s * line.u, f));
                 number = std::max(number, record.part + 1);
               }
-        const double size = surface.get_faces()[f].size;
         for (unsigned int part = 0; part < 3; ++part)
           {
             const double s   = closest_over(reached.x, line, f, stretch, part);

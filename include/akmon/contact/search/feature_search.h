@@ -256,6 +256,11 @@ namespace akmon
                  const unsigned int face,
                  std::array<double, 2> &s) const;
     double
+    least_gap_over(const ContactNodes::Field &x,
+                   const Line &line,
+                   const unsigned int face,
+                   const std::array<double, 2> &stretch) const;
+    double
     closest_over(const ContactNodes::Field &x,
                  const Line &line,
                  const unsigned int face,
@@ -279,11 +284,10 @@ namespace akmon
                const dealii::Tensor<1, 3> &p,
                const unsigned int face) const;
     bool
-    is_over(const ContactNodes::Field &x,
+    is_near(const ContactNodes::Field &x,
             const Line &line,
             const unsigned int face,
-            const double reach,
-            std::array<double, 2> &stretch) const;
+            const double reach) const;
 
     const Discretization &discretization;
     const RigidBody &body;
@@ -297,6 +301,7 @@ namespace akmon
     // Numbers of a feature and of its partner, sorted.
     using Candidates = std::vector<std::array<unsigned int, 2>>;
     Candidates faces_of_corners, faces_of_edges, edges_of_edges;
+    Candidates near_edges;       ///< of faces_of_edges, those that may touch in the step
     std::vector<Record> records; ///< of the pairs of the last search
   };
 } // namespace akmon
