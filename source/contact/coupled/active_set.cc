@@ -9,7 +9,7 @@ namespace akmon
 {
   namespace
   {
-    /// The pairs whose gaps are closed, w = 0, and all forces.
+    // The pairs whose gaps are closed, w = 0, and all forces.
     struct ActiveSet
     {
       const Eigen::MatrixXd &A;
@@ -82,6 +82,7 @@ namespace akmon
   {
     constexpr int most_changes = 10; // for each pair
 
+    // From none: pairs that are known to press may repeat each other, which spoils what follows.
     t.setZero(b.size());
     ActiveSet set{A, {}, t};
     for (int n = 0; n <= most_changes * b.size(); ++n)
