@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# clang-tidy 14 with the checks of .clang-tidy over the sources of the time step, in the batches they are
-# compiled in (most of its time goes into deal.II's headers), or over the files named, each alone; any finding
-# fails. In batches the HeaderFilterRegex tells whose findings count.
+# clang-tidy 14 with the checks of .clang-tidy over the sources of the time step, in large batches (most of its
+# time goes into deal.II's headers), or over the files named, each alone; any finding fails. In batches the
+# HeaderFilterRegex tells whose findings count.
 # Usage: tidy.sh SOURCE_DIR BUILD_DIR [SOURCE_FILE]...      Exit status 77 (skipped) without clang-tidy 14.
 set -euo pipefail
 source_dir=$1
@@ -26,7 +26,7 @@ commands=$database/compile_commands.json
 batches=ON
 (($# == 0)) || batches=OFF
 cmake -S "$source_dir" -B "$database" -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_COMPILER=g++ \
-  -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DAKMON_UNITY="$batches" -DAKMON_TESTS=OFF >/dev/null
+  -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DAKMON_UNITY="$batches" -DAKMON_BATCH=20 -DAKMON_TESTS=OFF >/dev/null
 sed -E -e 's/ -Winvalid-pch//g; s/ -include [^ "]*cmake_pch\.hxx//g; s/ -Wno-(maybe-)?uninitialized//g; s/ -Werror / /g' \
   -i "$commands"
 

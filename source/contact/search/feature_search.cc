@@ -21,7 +21,7 @@ namespace akmon
   namespace
   {
     BoundingBox<3>
-    box_around(const Segment &corners, const double margin)
+    bounding_box(const Segment &corners, const double margin)
     {
       const std::vector<Point<3>> points{Point<3>(corners[0]),
                                          Point<3>(corners[1]),
@@ -151,7 +151,7 @@ namespace akmon
     fetched.clear();
     std::vector<std::pair<BoundingBox<3>, unsigned int>> boxes;
     for (unsigned int f = 0; f < surface.get_faces().size(); ++f)
-      boxes.emplace_back(box_around(surface.segment(x, f), search_radius), f);
+      boxes.emplace_back(bounding_box(surface.segment(x, f), search_radius), f);
     const auto tree  = pack_rtree(boxes);
     const auto visit = [&](const Tensor<1, 3> &a, const Tensor<1, 3> &u, const auto &take) {
       const BoundingBox<3> box(std::vector<Point<3>>{Point<3>(a), Point<3>(a + u)});
