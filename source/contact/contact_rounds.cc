@@ -25,7 +25,7 @@ namespace akmon
 
 
   // Forces, and again while the gaps that they lead to are not what the linear constraints promise,
-  // or rigid bodies touch where there is no pair.
+  // or rigid bodies touch, or their edges are in faces, where there is no pair.
   void
   Contact::solve_coupled(const NodalState &state)
   {

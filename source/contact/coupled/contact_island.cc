@@ -189,7 +189,7 @@ namespace akmon
       return;
     for (unsigned int i = 0; i < n; ++i)
       {
-        tau[i]          = Delassus::Vector::value_type({t[i], 0., 0.});
+        tau[i]          = Delassus::Vector::value_type({std::max(0., t[i]), 0., 0.});
         faces[i]        = CoulombFace();
         faces[i].normal = t[i] > 0.;
       }
