@@ -269,46 +269,6 @@ namespace semismooth_newton_test
   }
 
 
-  // Of a solution with friction; lengths and forces are of the order of one.
-  void
-  expect_conditions(const Problem &problem,
-                    const std::vector<double> &friction,
-                    const std::vector<Vector> &t,
-                    const unsigned int seed)
-  {
-    const auto w = problem.relative_motion(t);
-    for (std::size_t i = 0; i < t.size(); ++i)
-      {
-        const double t_n = t[i][0], w_n = w[i][0], limit = friction[i] * t_n;
-        const Vector t_tau({0., t[i][1], t[i][2]}), w_tau({0., w[i][1], w[i][2]});
-        EXPECT_GE(t_n, 0.) << seed;
-        EXPECT_GE(w_n, -1e-11) << seed;
-        EXPECT_LE(std::min(t_n, w_n), 1e-10) << seed;
-        EXPECT_LE(t_tau.norm(), limit * (1. + 1e-12) + 1e-14) << seed;
-        if (t_tau.norm() < limit * (1. - 1e-9))
-          {
-            EXPECT_LE(w_tau.norm(), 1e-10) << seed;
-          }
-        else // opposes: |r w_tau + |w_tau| t_tau| = 0
-          {
-            EXPECT_LE((limit * w_tau + w_tau.norm() * t_tau).norm(), 1e-9 * (1. + limit)) << seed;
-          }
-      }
-  }
-
-
-  std::vector<double>
-  coefficients(const unsigned int n, const unsigned int seed)
-  {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<double> uniform(0., 0.8);
-    std::vector<double> friction(n);
-    for (unsigned int i = 0; i < n; ++i)
-      friction[i] = i == 2 ? 0. : uniform(random);
-    return friction;
-  }
-
-
   // Too few applications for the true problem: friction may be too little, gaps are right.
   TEST_P(Complementarity, without_a_solution_closes_gaps_within_the_cones)
   {

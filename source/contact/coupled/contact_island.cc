@@ -11,39 +11,45 @@ namespace akmon
   using namespace dealii;
 
   void
-  ContactIsland::reinit(const std::vector<const ClosingPair *> &members,
-                        const ContactNodes::Id first_common_id,
+  ContactIsland::reinit(const ContactNodes::Id first_common_id,
                         const Bonds *const bonds,
                         const double effective_mass_factor)
   {
     constexpr std::size_t most_assembled = 32; // pairs
 
-    number_nodes(members, first_common_id);
-    delassus.reinit(pairs, mobility, effective_mass_factor);
     result                     = {0, 0., true};
     problem.start_is_reference = false;
-    if (bonds)
-      delassus.set_bonds(*bonds, ids);
-    else if (pairs.size() <= most_assembled)
-      delassus.assemble();
-    preconditioner.set_pairs(pairs, delassus, mobility, effective_mass_factor);
+    if (!bonds && members.size() <= most_assembled)
+      {
+        delassus.assemble(members, effective_mass_factor);
+        preconditioner.set_matrix(delassus);
+      }
+    else
+      {
+        number_nodes(first_common_id);
+        delassus.reinit(pairs, mobility, effective_mass_factor);
+        if (bonds)
+          delassus.set_bonds(*bonds, ids);
+        preconditioner.set_pairs(pairs, delassus, mobility, effective_mass_factor);
+      }
     problem.norm = delassus.norm_bound();
     problem.friction.clear();
     problem.weights.clear();
     tau.clear();
-    for (std::size_t i = 0; i < pairs.size(); ++i)
+    solved_gaps.clear();
+    for (std::size_t i = 0; i < members.size(); ++i)
       {
-        const double s = delassus.scale()[i];
+        const ContactPair &pair = members[i]->pair;
+        const double s          = delassus.scale()[i];
         problem.friction.push_back(members[i]->friction);
-        problem.weights.push_back(s > 0. ? 1. / (s * pairs[i].size) : 0.);
-        tau.push_back(s > 0. ? delassus.frame(i) * pairs[i].force() / s : Tensor<1, 3>());
+        problem.weights.push_back(s > 0. ? 1. / (s * pair.size) : 0.);
+        tau.push_back(s > 0. ? delassus.frame(i) * pair.force() / s : Tensor<1, 3>());
       }
   }
 
 
   void
-  ContactIsland::number_nodes(const std::vector<const ClosingPair *> &members,
-                              const ContactNodes::Id first_common_id)
+  ContactIsland::number_nodes(const ContactNodes::Id first_common_id)
   {
     ids.clear();
     for (const ClosingPair *const member : members)
@@ -69,65 +75,88 @@ namespace akmon
 
 
   bool
-  ContactIsland::is_solved_for(const std::vector<const ClosingPair *> &members) const
+  ContactIsland::is_solved() const
   {
-    return std::equal(pairs.begin(),
-                      pairs.end(),
+    return std::equal(solved_gaps.begin(),
+                      solved_gaps.end(),
                       members.begin(),
                       members.end(),
-                      [](const ContactPair &pair, const ClosingPair *const member) {
-                        return pair.target_gap == member->pair.target_gap;
+                      [](const double gap, const ClosingPair *const member) {
+                        return gap == member->pair.target_gap;
                       });
   }
 
 
   void
-  ContactIsland::solve(const std::vector<const ClosingPair *> &members,
-                       const ContactSolver &parameters,
-                       const double tolerance,
-                       Newton &newton)
+  ContactIsland::pose(const ContactSolver &parameters, const double tolerance)
   {
     // Of a pair's own mobility: enough to make repeated constraints regular, and of no consequence
     // for gaps (SemismoothNewton).
-    constexpr double compliance     = 1e-7;
-    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
+    constexpr double compliance = 1e-7;
 
     problem.tolerance  = tolerance;
     problem.sufficient = std::max(parameters.tolerance, tolerance);
     // Where no friction was found in this step none would be now: gaps are closed at once.
-    problem.limit = result.converged || !problem.rubs() ? parameters.limit : 1;
-    for (std::size_t i = 0; i < pairs.size(); ++i)
-      pairs[i].target_gap = members[i]->pair.target_gap;
-    const auto &s      = delassus.scale();
+    problem.limit      = result.converged || !problem.rubs() ? parameters.limit : 1;
     problem.compliance = compliance;
-    problem.b.resize(pairs.size());
-    for (std::size_t i = 0; i < pairs.size(); ++i)
+    problem.b.resize(members.size());
+    solved_gaps.resize(members.size());
+    const auto &s = delassus.scale();
+    for (std::size_t i = 0; i < members.size(); ++i)
       {
-        problem.b[i] = s[i] * (delassus.frame(i) * members[i]->free_motion);
-        problem.b[i][0] += s[i] * members[i]->pair.target_gap;
+        solved_gaps[i] = members[i]->pair.target_gap;
+        problem.b[i]   = s[i] * (delassus.frame(i) * members[i]->free_motion);
+        problem.b[i][0] += s[i] * solved_gaps[i];
       }
+  }
+
+
+  void
+  ContactIsland::solve(const ContactSolver &parameters, const bool slips_if_wedged, Newton &newton)
+  {
+    constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
+
     result                     = newton.solve(problem, delassus, preconditioner, tau, faces);
     problem.start_is_reference = true; // of the next gaps of the same step
     if (!result.converged && !problem.rubs())
       solve_one_by_one();
     else if (!result.converged && delassus.matrix().size() > 0)
       start_elsewhere(parameters.limit, newton);
-    if (!result.converged && problem.rubs() && largest_overlap() > problem.sufficient)
+    if (!result.converged && problem.rubs() &&
+        (slips_if_wedged || largest_overlap() > problem.sufficient))
       let_slip(parameters.limit, newton);
     if (!preconditioner.is_old())
       iterations_when_new = result.n_applications;
     else if (result.n_applications > iterations_when_new + patience)
       preconditioner.forget();
-    for (std::size_t i = 0; i < pairs.size(); ++i)
+    take_forces();
+  }
+
+
+  void
+  ContactIsland::take(const NewtonLanes::Problem &lane)
+  {
+    result                     = {lane.n_applications, lane.residual, true};
+    problem.start_is_reference = true; // of the next gaps of the same step
+    take_forces();
+  }
+
+
+  // Of the solution.
+  void
+  ContactIsland::take_forces()
+  {
+    const auto &s = delassus.scale();
+    forces.resize(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i)
       {
-        auto &pair            = pairs[i];
-        const auto force      = s[i] * tau[i];
-        pair.normal_force     = force[0];
-        pair.tangential_force = force[1] * delassus.frame(i)[1] + force[2] * delassus.frame(i)[2];
+        const auto force     = s[i] * tau[i];
+        const auto &frame    = delassus.frame(i);
+        forces[i].normal     = force[0];
+        forces[i].tangential = force[1] * frame[1] + force[2] * frame[2];
         // On the circle up to rounding is sliding.
-        pair.sticks = pair.normal_force > 0. &&
-                      pair.tangential_force.norm() <
-                        (1. - 1e-12) * problem.friction[i] * pair.normal_force;
+        forces[i].sticks = force[0] > 0. && forces[i].tangential.norm() <
+                                              (1. - 1e-12) * problem.friction[i] * force[0];
       }
   }
 
@@ -168,7 +197,7 @@ namespace akmon
   {
     constexpr unsigned int most = 400; // pairs: the time grows with their third power
 
-    const unsigned int n = pairs.size();
+    const unsigned int n = members.size();
     if (n > most)
       return;
     Eigen::MatrixXd A(n, n);

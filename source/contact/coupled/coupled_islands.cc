@@ -202,16 +202,16 @@ namespace akmon
     auto &island  = (known ? islands.insert(std::move(known)).position :
                              islands.emplace(key, std::make_unique<Island>()).first)
                      ->second;
-    island->members = members;
-    // Pairs only join during a step.
-    if (island->of_this_step && island->get_pairs().size() == members.size())
+    const bool is_same = island->of_this_step && // pairs only join during a step
+                         island->get_members().size() == members.size();
+    island->set_members(members);
+    if (is_same)
       return;
     const bool any_bonded = std::any_of(members.begin(), members.end(), [](const auto *member) {
       return member->is_bonded;
     });
-    island->reinit(members, nodes.first_common_id(), any_bonded ? bonds : nullptr, mass_factor);
+    island->reinit(nodes.first_common_id(), any_bonded ? bonds : nullptr, mass_factor);
     island->of_this_step = true;
-    island->is_solved    = false;
   }
 
 
@@ -237,33 +237,28 @@ namespace akmon
   {
     const MPI_Comm communicator = nodes.get_communicator();
     const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
-    const auto take             = [&](const Solved &solved_pair) {
-      ContactPair &pair     = *all[solved_pair.number];
-      pair.normal_force     = solved_pair.normal_force;
-      pair.tangential_force = solved_pair.tangential_force;
-      pair.sticks           = solved_pair.sticks;
+    const auto take             = [&](const unsigned int number, const PairForce &force) {
+      ContactPair &pair     = *all[number];
+      pair.normal_force     = force.normal;
+      pair.tangential_force = force.tangential;
+      pair.sticks           = force.sticks;
     };
 
     solved.clear();
     for (const auto &[key, island] : islands)
-      for (std::size_t i = 0; i < island->members.size() && island->is_new; ++i)
+      for (std::size_t i = 0; i < island->get_members().size() && island->is_new; ++i)
         {
-          const ContactPair &pair   = island->get_pairs()[i];
-          const ClosingPair &member = *island->members[i];
-          const Solved of_pair{member.rank,
-                               member.number,
-                               pair.normal_force,
-                               pair.tangential_force,
-                               pair.sticks};
+          const ClosingPair &member = *island->get_members()[i];
+          const PairForce &force    = island->get_forces()[i];
           if (member.rank == rank)
-            take(of_pair);
+            take(member.number, force);
           else
-            solved.push_back(of_pair);
+            solved.push_back({member.rank, member.number, force});
         }
     if (!nodes.is_parallel() || of_all_ranks.empty())
       return;
     for (const Solved &of_pair : gather(solved, communicator))
       if (of_pair.rank == rank)
-        take(of_pair);
+        take(of_pair.number, of_pair.force);
   }
 } // namespace akmon

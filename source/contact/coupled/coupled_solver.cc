@@ -102,8 +102,9 @@ namespace akmon
 
 
   void
-  CoupledSolver::solve(const ContactNodes::Field &dx_free)
+  CoupledSolver::solve(const ContactNodes::Field &dx_free, const bool new_wedged_slip)
   {
+    wedged_slip            = new_wedged_slip;
     const double tolerance = tolerance_for(dx_free);
     bool join              = activate(dx_free, nullptr, 0.) || !has_begun;
     has_begun              = true;
@@ -190,28 +191,67 @@ namespace akmon
   }
 
 
+  // Small ones as many at a time as there are lanes, of about the same size.
   void
   CoupledSolver::solve_islands(const double tolerance)
   {
-    std::vector<double> sums(2, 0.), worst(2, 0.);
-    const auto solve_island = [&](Island &island) {
-      const double n = island.members.size();
-      sums[1] += n;
-      island.is_new = !island.is_solved || !island.is_solved_for(island.members);
-      if (!island.is_new)
-        return;
-      island.solve(island.members, parameters, tolerance, newton);
-      island.is_solved   = true;
-      const auto &result = island.get_result();
-      sums[0] += n * result.n_applications;
-      worst[0] = std::max(worst[0], result.residual);
-      worst[1] = std::max(worst[1], result.converged ? 0. : 1.);
-    };
     {
       const WorkTime timing(seconds_of_work);
+      small.clear();
       for (auto &[key, island] : islands)
-        solve_island(*island);
+        {
+          island->is_new = !island->is_solved();
+          if (!island->is_new)
+            continue;
+          island->pose(parameters, tolerance);
+          if (island->fits_lane())
+            small.push_back(island.get());
+          else
+            island->solve(parameters, wedged_slip, newton);
+        }
+      std::stable_sort(small.begin(), small.end(), [](const Island *a, const Island *b) {
+        return a->get_members().size() < b->get_members().size();
+      });
+      for (std::size_t i = 0; i < small.size(); i += n_lanes)
+        solve_side_by_side(&small[i],
+                           small.data() + std::min<std::size_t>(i + n_lanes, small.size()));
     }
+    count_solutions();
+  }
+
+
+  // What takes more than the lanes do is solved alone.
+  void
+  CoupledSolver::solve_side_by_side(Island *const *const begin, Island *const *const end)
+  {
+    problems.clear();
+    for (auto island = begin; island != end; ++island)
+      problems.push_back((*island)->lane());
+    lanes.solve(problems);
+    for (auto island = begin; island != end; ++island)
+      if (const auto &problem = problems[island - begin]; problem.is_solved)
+        (*island)->take(problem);
+      else
+        (*island)->solve(parameters, wedged_slip, newton);
+  }
+
+
+  // Of all islands and ranks, those solved just now.
+  void
+  CoupledSolver::count_solutions()
+  {
+    std::vector<double> sums(2, 0.), worst(2, 0.);
+    for (const auto &[key, island] : islands)
+      {
+        const double n = island->get_members().size();
+        sums[1] += n;
+        if (!island->is_new)
+          continue;
+        const auto &result = island->get_result();
+        sums[0] += n * result.n_applications;
+        worst[0] = std::max(worst[0], result.residual);
+        worst[1] = std::max(worst[1], result.converged ? 0. : 1.);
+      }
     Utilities::MPI::sum(sums, nodes.get_communicator(), sums);
     Utilities::MPI::max(worst, nodes.get_communicator(), worst);
     n_applications += sums[0];

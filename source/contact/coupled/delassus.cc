@@ -54,43 +54,67 @@ namespace akmon
 
 
   void
-  Delassus::assemble()
+  Delassus::assemble(const ClosingPairs &members, const double new_mass_factor)
   {
+    bonds       = nullptr;
+    mass_factor = new_mass_factor;
+    scales.clear();
+    frames.clear();
     columns.clear();
     begins.assign(1, 0);
-    for (std::size_t i = 0; i < pairs->size(); ++i)
-      {
-        const ContactPair &pair = (*pairs)[i];
-        for (unsigned int k = 0; k < pair.n_nodes; ++k)
-          if (const unsigned int node = pair.nodes[k]; !mobility->is_held(node))
-            {
-              Column column{node, {}, {}};
-              for (unsigned int d = 0; d < 3; ++d)
-                {
-                  column.force[d]     = pair.at_node(k, scales[i] * frames[i][d]);
-                  column.increment[d] = (*mobility)[node] * column.force[d] / mass_factor;
-                }
-              columns.push_back(column);
-            }
-        begins.push_back(columns.size());
-      }
-    assembled.setZero(3 * pairs->size(), 3 * pairs->size());
-    const auto visit_columns = [&](const std::size_t i, const auto &visit) {
-      std::for_each(columns.begin() + begins[i], columns.begin() + begins[i + 1], visit);
-    };
-    for (std::size_t i = 0; i < pairs->size(); ++i)
+    for (const ClosingPair *const member : members)
+      collect_columns(*member);
+
+    assembled.setZero(3 * members.size(), 3 * members.size());
+    for (std::size_t i = 0; i < members.size(); ++i)
       for (std::size_t j = 0; j <= i; ++j)
         {
-          visit_columns(i, [&](const Column &row) {
-            visit_columns(j, [&](const Column &column) {
-              if (row.node == column.node)
-                for (unsigned int c = 0; c < 3; ++c)
-                  for (unsigned int r = 0; r < 3; ++r)
-                    assembled(3 * i + r, 3 * j + c) += row.force[r] * column.increment[c];
-            });
-          });
-          assembled.block<3, 3>(3 * j, 3 * i) = assembled.block<3, 3>(3 * i, 3 * j).transpose();
+          Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
+          bool any              = false;
+          for (unsigned int k = begins[i]; k < begins[i + 1]; ++k)
+            for (unsigned int l = begins[j]; l < begins[j + 1]; ++l)
+              if (columns[k].node == columns[l].node)
+                {
+                  any = true;
+                  for (unsigned int c = 0; c < 3; ++c)
+                    for (unsigned int r = 0; r < 3; ++r)
+                      block(r, c) += columns[k].force[r] * columns[l].increment[c];
+                }
+          if (!any)
+            continue;
+          assembled.block<3, 3>(3 * i, 3 * j) = block;
+          assembled.block<3, 3>(3 * j, 3 * i) = block.transpose();
         }
+  }
+
+
+  // Of a pair, with its frame and scale.
+  void
+  Delassus::collect_columns(const ClosingPair &member)
+  {
+    const ContactPair &pair = member.pair;
+    frames.push_back(frame_of(pair.normal));
+    double A_ii = 0.;
+    for (unsigned int k = 0; k < pair.n_nodes; ++k)
+      if (trace(member.mobility[k]) > 0.) // else it is held
+        {
+          Column column{member.ids[k], {}, {}};
+          for (unsigned int d = 0; d < 3; ++d)
+            {
+              column.force[d]     = pair.at_node(k, frames.back()[d]);
+              column.increment[d] = member.mobility[k] * column.force[d] / mass_factor;
+            }
+          A_ii += column.force[0] * column.increment[0];
+          columns.push_back(column);
+        }
+    scales.push_back(A_ii > 0. ? 1. / std::sqrt(A_ii) : 0.);
+    for (auto column = columns.begin() + begins.back(); column != columns.end(); ++column)
+      for (unsigned int d = 0; d < 3; ++d)
+        {
+          column->force[d] *= scales.back();
+          column->increment[d] *= scales.back();
+        }
+    begins.push_back(columns.size());
   }
 
 
@@ -99,6 +123,8 @@ namespace akmon
   double
   Delassus::norm_bound()
   {
+    if (assembled.size() > 0)
+      return assembled.cwiseAbs().rowwise().sum().maxCoeff();
     at_node.assign(mobility->size(), 0.);
     for (std::size_t i = 0; i < pairs->size(); ++i)
       for (unsigned int k = 0; k < (*pairs)[i].n_nodes; ++k)

@@ -29,20 +29,28 @@ namespace akmon
                                 const Mobility &new_mobility,
                                 const double new_mass_factor)
   {
+    if (is_assembled())
+      groups.clear();
     pairs       = &new_pairs;
     delassus    = &new_delassus;
     mobility    = &new_mobility;
     mass_factor = new_mass_factor;
     closed.clear();
-    if (is_assembled())
-      {
-        groups.resize(1);
-        if (!groups.front())
-          groups.front() = std::make_unique<Group>();
-        groups.front()->clear();
-      }
     for (const auto &group : groups)
       group->old = true;
+  }
+
+
+  void
+  PairPreconditioner::set_matrix(const Delassus &new_delassus)
+  {
+    pairs    = nullptr;
+    delassus = &new_delassus;
+    closed.clear();
+    groups.resize(1);
+    if (!groups.front())
+      groups.front() = std::make_unique<Group>();
+    groups.front()->clear();
   }
 
 
@@ -65,7 +73,7 @@ namespace akmon
       }
     shift = new_shift;
     now_closed.clear();
-    for (unsigned int i = 0; i < pairs->size(); ++i)
+    for (unsigned int i = 0; i < faces.size(); ++i)
       if (is_closed(i, faces))
         now_closed.push_back(i);
     if (!groups.empty() && now_closed == closed && all_serve(faces))
@@ -166,8 +174,11 @@ namespace akmon
   {
     for (const unsigned int i : list)
       {
-        group.members.push_back(
-          {(*pairs)[i].key(), faces[i], i, group.n_rows, Directions(faces[i])});
+        group.members.push_back({is_assembled() ? Key() : (*pairs)[i].key(),
+                                 faces[i],
+                                 i,
+                                 group.n_rows,
+                                 Directions(faces[i])});
         group.n_rows += group.members.back().directions.n;
       }
     if (is_assembled())

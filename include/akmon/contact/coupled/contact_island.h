@@ -1,31 +1,18 @@
 #pragma once
 
-#include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
+#include <akmon/contact/coupled/closing_pair.h>
 #include <akmon/contact/coupled/delassus.h>
+#include <akmon/contact/coupled/newton_lanes.h>
 #include <akmon/contact/coupled/pair_preconditioner.h>
 #include <akmon/contact/coupled/semismooth_newton.h>
 #include <akmon/contact/mobility.h>
-#include <akmon/contact/pair.h>
 
-#include <array>
 #include <vector>
 
 namespace akmon
 {
   class Bonds;
-
-  /// A pair of any rank that may close in the step, with all that its island has to know.
-  struct ClosingPair
-  {
-    ContactPair pair;
-    std::array<ContactNodes::Id, 7> ids;                   ///< of its nodes
-    std::array<dealii::SymmetricTensor<2, 3>, 7> mobility; ///< W of its nodes; 1/mass
-    double friction;                                       ///< mu
-    dealii::Tensor<1, 3> free_motion;                      ///< G dx_f; length
-    bool is_bonded;                                        ///< bonds hold a node of it
-    unsigned int rank, number;                             ///< where it comes from
-  };
 
   /**
    * Contact pairs that share nodes, directly or through others, and with them a problem that no
@@ -37,37 +24,72 @@ namespace akmon
   public:
     using Newton = SemismoothNewton<Delassus, PairPreconditioner>;
 
+    /// @param members  referred to until the next call
+    void
+    set_members(const ClosingPairs &new_members)
+    {
+      members = new_members;
+    }
+
+    const ClosingPairs &
+    get_members() const
+    {
+      return members;
+    }
+
     /**
-     * Begin with the forces that the pairs have. Factors of earlier pairs are kept.
-     * @param members          sorted by key
+     * Begin with the forces that the members have. Factors of earlier ones are kept.
      * @param first_common_id  of nodes of rigid bodies
      * @param bonds            that hold any of the nodes, if there are such
      */
     void
-    reinit(const std::vector<const ClosingPair *> &members,
-           const ContactNodes::Id first_common_id,
+    reinit(const ContactNodes::Id first_common_id,
            const Bonds *bonds,
            const double effective_mass_factor);
 
     /**
-     * Find forces for the free motions and target gaps of the same members.
+     * Take up the members' free motions and target gaps.
      * @param tolerance  relative to the cell size
      */
     void
-    solve(const std::vector<const ClosingPair *> &members,
-          const ContactSolver &parameters,
-          const double tolerance,
-          Newton &newton);
+    pose(const ContactSolver &parameters, const double tolerance);
 
-    /// Whether the last solution is for the target gaps of the same members.
+    /**
+     * Find forces for what was posed.
+     * @param slips_if_wedged  without friction where no solution with friction is found, else with
+     *   less of it, as long as that closes the gaps
+     */
+    void
+    solve(const ContactSolver &parameters, const bool slips_if_wedged, Newton &newton);
+
+    /// Whether the problem may be one of several that are solved side by side.
     bool
-    is_solved_for(const std::vector<const ClosingPair *> &members) const;
-
-    /// With the forces of the last solution.
-    const std::vector<ContactPair> &
-    get_pairs() const
+    fits_lane() const
     {
-      return pairs;
+      return delassus.matrix().size() > 0 && members.size() <= NewtonLanes::most_pairs &&
+             problem.limit > 2 * NewtonLanes::most_steps;
+    }
+
+    /// The problem, to be solved side by side with others.
+    NewtonLanes::Problem
+    lane()
+    {
+      return {&delassus.matrix(), &problem, &tau};
+    }
+
+    /// Take the solution of such a problem.
+    void
+    take(const NewtonLanes::Problem &lane);
+
+    /// Whether the last solution is for the members' target gaps.
+    bool
+    is_solved() const;
+
+    /// Of the last solution, in the order of the members.
+    const std::vector<PairForce> &
+    get_forces() const
+    {
+      return forces;
     }
 
     /// Of the last solution.
@@ -79,10 +101,11 @@ namespace akmon
 
   private:
     void
-    number_nodes(const std::vector<const ClosingPair *> &members,
-                 const ContactNodes::Id first_common_id);
+    number_nodes(const ContactNodes::Id first_common_id);
     void
     start_elsewhere(const unsigned int limit, Newton &newton);
+    void
+    take_forces();
     double
     largest_overlap();
     void
@@ -90,7 +113,8 @@ namespace akmon
     void
     solve_one_by_one();
 
-    std::vector<ContactPair> pairs; ///< their nodes are numbers of the island
+    ClosingPairs members;
+    std::vector<ContactPair> pairs; ///< with numbers of the island, if the operator is no matrix
     std::vector<ContactNodes::Id> ids;
     Mobility mobility;
     Delassus delassus;
@@ -100,5 +124,7 @@ namespace akmon
     Delassus::Vector tau;
     std::vector<CoulombFace> faces;
     Newton::Result result{};
+    std::vector<double> solved_gaps; ///< target gaps of the last solution
+    std::vector<PairForce> forces;
   };
 } // namespace akmon

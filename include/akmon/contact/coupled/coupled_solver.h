@@ -56,9 +56,12 @@ namespace akmon
       return friction_somewhere;
     }
 
-    /// Forces for the pairs' target gaps, warm-started from those they have (collective).
+    /**
+     * Forces for the pairs' target gaps, warm-started from those they have (collective).
+     * @param wedged_slip  islands without a solution with friction get none (ContactIsland)
+     */
     void
-    solve(const ContactNodes::Field &dx_free);
+    solve(const ContactNodes::Field &dx_free, const bool wedged_slip = false);
 
     /// Nodal increments that the last solution's forces cause, at all contact nodes.
     const ContactNodes::Field &
@@ -112,9 +115,7 @@ namespace akmon
 
     struct Island : ContactIsland
     {
-      std::vector<const ClosingPair *> members;
       bool of_this_step = false;
-      bool is_solved    = false; ///< in this step
       bool is_new       = false; ///< its solution, to the ranks of its pairs
     };
 
@@ -122,9 +123,7 @@ namespace akmon
     struct Solved
     {
       unsigned int rank, number;
-      double normal_force;
-      dealii::Tensor<1, 3> tangential_force;
-      bool sticks;
+      PairForce force;
     };
 
     void
@@ -168,6 +167,10 @@ namespace akmon
     void
     solve_islands(const double tolerance);
     void
+    solve_side_by_side(Island *const *begin, Island *const *end);
+    void
+    count_solutions();
+    void
     bring_forces_home();
 
     const ContactSolver &parameters;
@@ -176,12 +179,14 @@ namespace akmon
     const Bonds *const bonds;
     ContactResponse response;
     ContactIsland::Newton newton;
+    NewtonLanes lanes;
 
     std::vector<ContactPair *> all; ///< pairs that may close
     std::vector<double> friction_of_all;
     std::vector<bool> active; ///< by number in `all`
     double mass_factor = 1.;
     bool has_begun     = false; ///< to solve in this step
+    bool wedged_slip   = false;
 
     std::vector<unsigned int> lone;   ///< pairs that have a closed solution, by number in `all`
     std::vector<ClosingPair> closing; ///< in islands that no other rank has a part in
@@ -197,14 +202,16 @@ namespace akmon
     };
 
     // Scratch.
-    std::vector<Meeting> met;                 ///< nodes of other ranks in active pairs
-    std::vector<bool> met_by_others;          ///< by owned node
-    std::vector<unsigned int> own;            ///< active pairs, by number in `all`
-    std::vector<bool> bonded;                 ///< the same
-    std::vector<const ClosingPair *> members; ///< of the island in work
-    std::vector<unsigned int> last_at;        ///< by node
+    std::vector<Meeting> met;          ///< nodes of other ranks in active pairs
+    std::vector<bool> met_by_others;   ///< by owned node
+    std::vector<unsigned int> own;     ///< active pairs, by number in `all`
+    std::vector<bool> bonded;          ///< the same
+    ClosingPairs members;              ///< of the island in work
+    std::vector<unsigned int> last_at; ///< by node
     std::vector<double> gaps;
     std::vector<Solved> solved;
+    std::vector<Island *> small;                ///< islands to be solved side by side
+    std::vector<NewtonLanes::Problem> problems; ///< theirs
 
     bool friction_somewhere = false;
     double n_applications   = 0.; ///< to a pair, in all islands

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <akmon/contact/contact_nodes.h>
+#include <akmon/contact/coupled/closing_pair.h>
 #include <akmon/contact/mobility.h>
 #include <akmon/contact/pair.h>
 
@@ -35,9 +36,9 @@ namespace akmon
            const Mobility &mobility,
            const double mass_factor);
 
-    /// Make the matrix; to come after reinit(), instead of set_bonds().
+    /// As a matrix, of pairs that no bonds hold. They are not referred to.
     void
-    assemble();
+    assemble(const ClosingPairs &members, const double mass_factor);
 
     /// Rows and columns: three for each pair, in its frame. Empty if it has not been assembled.
     const Eigen::MatrixXd &
@@ -82,9 +83,12 @@ namespace akmon
     // increments of that node, m*^{-1} s_i N_ik e.
     struct Column
     {
-      unsigned int node;
+      ContactNodes::Id node;
       std::array<dealii::Tensor<1, 3>, 3> force, increment;
     };
+
+    void
+    collect_columns(const ClosingPair &member);
 
     const std::vector<ContactPair> *pairs    = nullptr;
     const Mobility *mobility                 = nullptr;

@@ -45,6 +45,10 @@ namespace akmon
               const Mobility &mobility,
               const double mass_factor);
 
+    /// The same of an operator that has been assembled.
+    void
+    set_matrix(const Delassus &delassus);
+
     /// Factors made so far are too far from what they are used for.
     void
     forget()
@@ -137,7 +141,7 @@ namespace akmon
     bool
     is_assembled() const
     {
-      return delassus->matrix().size() > 0;
+      return pairs == nullptr;
     }
     bool
     is_closed(const unsigned int pair, const std::vector<CoulombFace> &faces) const;
@@ -163,7 +167,7 @@ namespace akmon
     factorize_full(Group &group);
 
     double shift                          = 0.;
-    const std::vector<ContactPair> *pairs = nullptr;
+    const std::vector<ContactPair> *pairs = nullptr; ///< unless the operator has been assembled
     const Delassus *delassus              = nullptr;
     const Mobility *mobility              = nullptr;
     double mass_factor                    = 1.;
