@@ -3,6 +3,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace akmon
@@ -134,9 +135,26 @@ namespace akmon
   ContactNodes::send_to_owners(std::vector<Contribution> &contributions) const
   {
     transfer_to_owners(contributions);
-    // Pairs of the same slave are of one rank and stay in their order.
-    std::stable_sort(contributions.begin(), contributions.end(), [](const auto &a, const auto &b) {
-      return std::tie(a.node, a.interface, a.slave) < std::tie(b.node, b.interface, b.slave);
-    });
+    begins.assign(n_owned() + 1, 0);
+    for (const Contribution &contribution : contributions)
+      ++begins[number(contribution.node) + 1];
+    std::partial_sum(begins.begin(), begins.end(), begins.begin());
+    by_node.resize(contributions.size());
+    ends = begins;
+    for (const Contribution &contribution : contributions)
+      by_node[ends[number(contribution.node)]++] = contribution;
+    contributions.swap(by_node);
+    // A node has few, which are nearly sorted. Pairs of the same slave are of one rank and stay in
+    // their order.
+    const auto comes_before = [](const Contribution &a, const Contribution &b) {
+      return std::tie(a.interface, a.slave) < std::tie(b.interface, b.slave);
+    };
+    for (unsigned int node = 0; node < n_owned(); ++node)
+      {
+        const auto begin = contributions.begin() + begins[node],
+                   end   = contributions.begin() + begins[node + 1];
+        for (auto next = begin; next != end; ++next)
+          std::rotate(std::upper_bound(begin, next, *next, comes_before), next, next + 1);
+      }
   }
 } // namespace akmon

@@ -207,6 +207,8 @@ namespace akmon
     std::shared_ptr<dealii::Utilities::MPI::Partitioner> partitioner;
     dealii::IndexSet owned_indices;
     mutable std::vector<double> buffer;
+    mutable std::vector<unsigned int> begins, ends; ///< of the contributions of owned nodes
+    mutable std::vector<Contribution> by_node;
   };
 
 

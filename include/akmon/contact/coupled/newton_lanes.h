@@ -30,7 +30,8 @@ namespace akmon
       double residual             = 0.; ///< as in SemismoothNewton
     };
 
-    static constexpr unsigned int most_pairs = 32;
+    static constexpr unsigned int most_pairs = 12; ///< beyond, factors that are kept and halved
+                                                   ///< where nothing slips are worth more
     static constexpr unsigned int most_steps = 25;
 
     /**
