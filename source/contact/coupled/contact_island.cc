@@ -123,7 +123,7 @@ namespace akmon
     else if (!result.converged && delassus.matrix().size() > 0)
       start_elsewhere(parameters.limit, newton);
     if (!result.converged && problem.rubs() &&
-        (slips_if_wedged || largest_overlap() > problem.sufficient))
+        (slips_if_wedged || (result.residual > nearly && largest_overlap() > problem.sufficient)))
       let_slip(parameters.limit, newton);
     if (!preconditioner.is_old())
       iterations_when_new = result.n_applications;
@@ -161,21 +161,27 @@ namespace akmon
   }
 
 
-  // Where no solution was found there may be one all the same.
+  // Where no solution was found there may be one all the same, or forces that are nearly one, which
+  // are better than made-up friction.
   void
   ContactIsland::start_elsewhere(const unsigned int limit, Newton &newton)
   {
     constexpr unsigned int n_sweeps = 200;
 
-    const auto with_closed_gaps = tau;
-    const Newton::Result failed = result;
-    unsigned int n_applications = failed.n_applications;
+    auto best                   = tau;
+    Newton::Result best_result  = result;
+    unsigned int n_applications = result.n_applications;
     problem.limit               = limit;
     for (const bool from_zero : {false, true})
       {
         if (from_zero)
           tau.assign(tau.size(), {});
         sweep(delassus.matrix(), problem, n_sweeps, tau);
+        if (const double left = residual(); left < std::min(best_result.residual, nearly))
+          {
+            best                 = tau;
+            best_result.residual = left;
+          }
         result = newton.solve(problem, delassus, preconditioner, tau, faces);
         n_applications += n_sweeps + result.n_applications;
         if (result.converged)
@@ -183,10 +189,23 @@ namespace akmon
       }
     if (!result.converged)
       {
-        tau    = with_closed_gaps;
-        result = failed;
+        tau    = best;
+        result = best_result;
       }
     result.n_applications = n_applications;
+  }
+
+
+  // As SemismoothNewton measures it.
+  double
+  ContactIsland::residual()
+  {
+    CompliantProblem<Delassus> forces_alone;
+    forces_alone.begin(problem, delassus);
+    forces_alone.set_reference(tau);
+    forces_alone.set_compliance(problem.compliance);
+    forces_alone.evaluate(tau);
+    return forces_alone.measure(tau);
   }
 
 

@@ -100,12 +100,17 @@ namespace akmon
     }
 
   private:
+    // A residual that the rounding of constraints that repeat each other explains.
+    static constexpr double nearly = 1e-8;
+
     void
     number_nodes(const ContactNodes::Id first_common_id);
     void
     start_elsewhere(const unsigned int limit, Newton &newton);
     void
     take_forces();
+    double
+    residual();
     double
     largest_overlap();
     void
