@@ -16,7 +16,7 @@ namespace akmon
    * @param A          symmetric, positive semidefinite, with a unit diagonal or zero rows
    * @param weights    what a component of w counts
    * @param tolerance  of the weighted violation -w
-   * @param t          solution on return, of any start
+   * @param t          solution on return; nothing is taken from it
    * @return           whether one was found
    */
   bool
