@@ -92,7 +92,6 @@ namespace akmon
   bool
   SurfaceSearch::closest_face(const ContactNodes::Field &x,
                               const unsigned int slave,
-                              const double travelled,
                               const double reach,
                               Partner &partner)
   {
@@ -109,7 +108,7 @@ namespace akmon
         partner.face       = memory.face;
         partner.projection = project(point, segment(x, masters[memory.face]));
         bound              = partner.projection.offset.norm();
-        if (memory.others_clear_of - travelled > std::max(bound, reach))
+        if (memory.others_clear_of > std::max(bound, reach))
           return true;
       }
     const Projection of_last = partner.projection;
@@ -117,8 +116,9 @@ namespace akmon
     unsigned int with_least = numbers::invalid_unsigned_int;
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const unsigned int f = candidates[i];
-        double at_least      = candidates_clear_of[i] - travelled;
+        const unsigned int f   = candidates[i];
+        const double travelled = body_pairs[pair_of_candidate[i]].travelled;
+        double at_least        = candidates_clear_of[i] - travelled;
         const bool is_far = f != memory.face && at_least > std::max(reach, std::min(bound, best));
         if (!is_far)
           {
@@ -144,7 +144,7 @@ namespace akmon
           }
       }
     const bool found       = best < largest;
-    memory.others_clear_of = travelled + least_bounds[found && partner.face == with_least ? 1 : 0];
+    memory.others_clear_of = least_bounds[found && partner.face == with_least ? 1 : 0];
     return found;
   }
 
@@ -248,20 +248,38 @@ namespace akmon
   void
   SurfaceSearch::advance(const BodyMotions &motions)
   {
-    for (Surroundings &around : surroundings)
+    for (BodyPair &pair : body_pairs)
       {
-        double approach  = 0.;
-        around.increment = 0.;
-        for (const unsigned int neighbour : around.neighbours)
+        pair.approach  = motions.approach(pair.of_slaves, pair.of_faces);
+        pair.increment = pair.of_slaves == pair.of_faces ?
+                           motions.within(pair.of_faces) :
+                           std::max(motions.around(pair.of_faces), motions.around(pair.of_slaves));
+        pair.travelled += pair.approach;
+      }
+  }
+
+
+  // The slaves that may have come within their reach of a face.
+  void
+  SurfaceSearch::choose_looks(const double steps, const double least_reach)
+  {
+    looks.clear();
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      {
+        const unsigned int begin = pairs_around_begin[s], end = pairs_around_begin[s + 1];
+        if (begin == end)
+          continue;
+        double approach = 0., increment = 0.;
+        for (unsigned int i = begin; i < end; ++i)
           {
-            const bool is_own = neighbour == around.body;
-            approach          = std::max(approach, motions.approach(around.body, neighbour));
-            around.increment  = std::max(around.increment,
-                                        is_own ? motions.within(neighbour) :
-                                                  std::max(motions.around(neighbour),
-                                                          motions.around(around.body)));
+            approach  = std::max(approach, body_pairs[pairs_around[i]].approach);
+            increment = std::max(increment, body_pairs[pairs_around[i]].increment);
           }
-        around.travelled += approach;
+        memories[s].clear_of -= approach;
+        memories[s].others_clear_of -= approach;
+        const double reach = std::max(least_reach, steps * increment);
+        if (memories[s].clear_of <= reach)
+          looks.push_back({s, reach});
       }
   }
 
@@ -276,16 +294,11 @@ namespace akmon
   {
     ++n_searches;
     advance(motions);
-    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+    choose_looks(steps, least_reach);
+    for (const auto &[slave, reach] : looks)
       {
-        if (slaves[s].first_candidate == slaves[s + 1].first_candidate)
-          continue;
-        const Surroundings &around = surroundings[slaves[s].surroundings];
-        const double reach         = std::max(least_reach, steps * around.increment);
-        if (memories[s].clear_of - around.travelled > reach)
-          continue;
-        outwards[s] = slave_normal(positions, s);
-        find_pairs_of(x, s, around.travelled, reach, pairs);
+        outwards[slave] = slave_normal(positions, slave);
+        find_pairs_of(x, slave, reach, pairs);
       }
   }
 
@@ -293,28 +306,27 @@ namespace akmon
   void
   SurfaceSearch::find_pairs_of(const ContactNodes::Field &x,
                                const unsigned int slave,
-                               const double travelled,
                                const double reach,
                                std::vector<ContactPair> &pairs)
   {
     Memory &memory = memories[slave];
     Partner partner;
-    if (!closest_face(x, slave, travelled, furthest * reach, partner))
+    if (!closest_face(x, slave, furthest * reach, partner))
       {
         // Faces around a fold may turn towards the slave.
         memory.face     = numbers::invalid_unsigned_int;
-        memory.clear_of = travelled + reach + 0.1 * search_radius;
+        memory.clear_of = reach + 0.1 * search_radius;
         return;
       }
     memory.face           = partner.face;
     const double distance = partner.projection.offset.norm();
     // Whatever is inside stays under watch.
     const bool outside = partner.projection.offset * shapes[partner.face].normal > 0.;
-    memory.clear_of    = outside ? travelled + distance : 0.;
+    memory.clear_of    = outside ? distance : 0.;
     if ((outside && distance > reach) || !complete(x, slave, partner))
       return;
     pairs.push_back(make_pair(x, slave, partner));
-    if (coupled && distance <= reach && memory.others_clear_of - travelled <= furthest * reach)
+    if (coupled && distance <= reach && memory.others_clear_of <= furthest * reach)
       {
         add_valley_pairs(x, reach, partner, pairs);
         add_corner_pairs(x, reach, pairs);

@@ -238,7 +238,7 @@ namespace akmon
       }
     slaves.back().first_candidate = candidates.size();
     candidates_clear_of.assign(candidates.size(), 0.);
-    collect_surroundings();
+    collect_body_pairs();
     find_last_faces();
     built_radius = search_radius;
   }
@@ -261,18 +261,13 @@ namespace akmon
   }
 
 
-  // To distances as they are now. What is known does not reach beyond the faces that have been
-  // candidates.
+  // What is known does not reach beyond the faces that have been candidates.
   void
   SurfaceSearch::settle_distances(const double moved)
   {
-    for (unsigned int s = 0; s < memories.size(); ++s)
-      for (double *const distance : {&memories[s].clear_of, &memories[s].others_clear_of})
-        {
-          if (!surroundings.empty())
-            *distance -= surroundings[slaves[s].surroundings].travelled;
-          *distance = std::min(*distance, built_radius - moved);
-        }
+    for (Memory &memory : memories)
+      for (double *const distance : {&memory.clear_of, &memory.others_clear_of})
+        *distance = std::min(*distance, built_radius - moved);
   }
 
 
@@ -299,42 +294,59 @@ namespace akmon
   {
     memories.assign(slaves.size(), Memory());
     candidates.clear();
-    surroundings.clear();
+    body_pairs.clear();
+    pairs_around.clear();
+    pairs_around_begin.assign(slaves.size(), 0);
     for (Slave &slave : slaves)
-      slave.first_candidate = slave.surroundings = 0;
+      slave.first_candidate = 0;
+  }
+
+
+  // @param known  by the body of the slaves: numbers of its pairs
+  unsigned int
+  SurfaceSearch::number_of_pair(const unsigned int of_slaves,
+                                const unsigned int of_faces,
+                                std::vector<std::vector<unsigned int>> &known)
+  {
+    for (const unsigned int number : known[of_slaves])
+      if (body_pairs[number].of_faces == of_faces)
+        return number;
+    known[of_slaves].push_back(body_pairs.size());
+    body_pairs.push_back({of_slaves, of_faces});
+    return known[of_slaves].back();
   }
 
 
   void
-  SurfaceSearch::collect_surroundings()
+  SurfaceSearch::collect_body_pairs()
   {
-    surroundings.clear();
-    std::map<std::pair<unsigned int, std::vector<unsigned int>>, unsigned int> numbers;
-    std::vector<unsigned int> neighbours;
+    body_pairs.clear();
+    pairs_around.clear();
+    pair_of_candidate.clear();
+    std::vector<std::vector<unsigned int>> known(discretization.get_bodies().size());
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
-        neighbours.clear();
+        const unsigned int first = pairs_around.size();
+        const unsigned int body  = discretization.body_of_node[slaves[s].node];
+        pairs_around_begin[s]    = first;
         for (unsigned int i = slaves[s].first_candidate; i < slaves[s + 1].first_candidate; ++i)
-          if (const unsigned int body = masters[candidates[i]].body;
-              std::find(neighbours.begin(), neighbours.end(), body) == neighbours.end())
-            neighbours.push_back(body);
-        std::sort(neighbours.begin(), neighbours.end());
-        const unsigned int body    = discretization.body_of_node[slaves[s].node];
-        const auto [known, is_new] = numbers.try_emplace(std::make_pair(body, neighbours),
-                                                         surroundings.size());
-        if (is_new)
-          surroundings.push_back({body, neighbours});
-        slaves[s].surroundings = known->second;
+          {
+            const unsigned int pair = number_of_pair(body, masters[candidates[i]].body, known);
+            pair_of_candidate.push_back(pair);
+            if (std::find(pairs_around.begin() + first, pairs_around.end(), pair) ==
+                pairs_around.end())
+              pairs_around.push_back(pair);
+          }
       }
+    pairs_around_begin.back() = pairs_around.size();
   }
 
 
   void
   SurfaceSearch::collect_neighbours(std::vector<std::array<unsigned int, 2>> &bodies) const
   {
-    for (const Surroundings &around : surroundings)
-      for (const unsigned int neighbour : around.neighbours)
-        bodies.push_back({{around.body, neighbour}});
+    for (const BodyPair &pair : body_pairs)
+      bodies.push_back({{pair.of_slaves, pair.of_faces}});
   }
 
 

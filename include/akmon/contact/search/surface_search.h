@@ -134,16 +134,22 @@ namespace akmon
       double stiffness;             ///< mean of its faces' K A^2/V; force/length
       unsigned int first_face;      ///< in slave_face_list
       unsigned int first_candidate; ///< in candidates
-      unsigned int surroundings;    ///< number of them
     };
 
-    // What slaves of a body have around them that have candidates of the same bodies.
-    struct Surroundings
+    // A body with slaves and one that has candidates of theirs, or twice the same.
+    struct BodyPair
     {
-      unsigned int body;
-      std::vector<unsigned int> neighbours; ///< bodies, sorted
-      double increment = 0.;                ///< the largest of a node in this step; length
-      double travelled = 0.; ///< how far all may have come closer since the last build; length
+      unsigned int of_slaves, of_faces;
+      double increment = 0.; ///< the largest of a node in this step; length
+      double approach  = 0.; ///< by how much they come closer in this step at most; length
+      double travelled = 0.; ///< the same since the last build; length
+    };
+
+    // A slave that may be within its reach of a face.
+    struct Look
+    {
+      unsigned int slave;
+      double reach; ///< length
     };
 
     struct FaceMessage
@@ -208,8 +214,8 @@ namespace akmon
       furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
 
-    // What earlier searches have found out about a slave. Distances are less what is travelled in
-    // its surroundings.
+    // What earlier searches have found out about a slave, less what its surroundings may have come
+    // closer since.
     struct Memory
     {
       unsigned int face      = dealii::numbers::invalid_unsigned_int; ///< the last partner's
@@ -243,14 +249,19 @@ namespace akmon
     settle_distances(const double moved);
     void
     find_last_faces();
+    unsigned int
+    number_of_pair(const unsigned int of_slaves,
+                   const unsigned int of_faces,
+                   std::vector<std::vector<unsigned int>> &known);
     void
-    collect_surroundings();
+    collect_body_pairs();
     void
     advance(const BodyMotions &motions);
     void
+    choose_looks(const double steps, const double least_reach);
+    void
     find_pairs_of(const ContactNodes::Field &x,
                   const unsigned int slave,
-                  const double travelled,
                   const double reach,
                   std::vector<ContactPair> &pairs);
     dealii::Tensor<1, 3>
@@ -260,7 +271,6 @@ namespace akmon
     bool
     closest_face(const ContactNodes::Field &x,
                  const unsigned int slave,
-                 const double travelled,
                  const double reach,
                  Partner &partner);
     static bool
@@ -313,8 +323,12 @@ namespace akmon
     std::vector<unsigned int> slave_face_list, candidates;
     std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
     std::vector<Memory> memories;               ///< by slave
-    std::vector<double> candidates_clear_of;    ///< as in the memories
-    std::vector<Surroundings> surroundings;
+    std::vector<BodyPair> body_pairs;
+    std::vector<unsigned int> pairs_around_begin; ///< by slave: first entry in pairs_around
+    std::vector<unsigned int> pairs_around;       ///< numbers of body pairs
+    std::vector<unsigned int> pair_of_candidate;
+    std::vector<double> candidates_clear_of; ///< no closer, plus what their pairs have travelled
+    std::vector<Look> looks;                 ///< in this search
     std::vector<FaceMessage> fetched;                       ///< sorted by id
     std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
     std::vector<MasterFace> masters;                        ///< in the same order
