@@ -13,13 +13,12 @@ namespace akmon
     constexpr double in_front = -1e-6; // of the cell size, for rounding: else there is no corner
 
 
-    // Pairs of one slave stand together, from the first one on.
+    // The last pair is of the same slave as the first one: such pairs stand together.
     void
-    add_to_corner(const std::size_t first, ContactPair pair, std::vector<ContactPair> &pairs)
+    share_corner(const std::size_t first, std::vector<ContactPair> &pairs)
     {
-      pair.slot          = pairs.size() - first;
-      pair.shares_corner = true;
-      pairs.push_back(pair);
+      pairs.back().slot          = pairs.size() - 1 - first;
+      pairs.back().shares_corner = true;
       pairs[first].shares_corner = true;
     }
   } // namespace
@@ -47,28 +46,34 @@ namespace akmon
     // What rises from the face at 30 degrees is half as far as the edge.
     if (distance_to_border(foot, segment(x, masters[first_face])) > 2.1 * reach)
       return;
-    visit_neighbours(first_face, [&](const unsigned int f) {
-      const MasterFace &master = masters[f];
-      const FaceShape &shape   = shape_of(x, f);
-      if (!shape.rises_from(foot, normal) || shape.bound_of_distance(point) > furthest * reach ||
-          !opposes(master, shape, slave))
+    const auto rises = [&](const unsigned int f) {
+      const auto corners = segment(x, masters[f]);
+      return rises_from(corners, foot, normal) && may_be_within(furthest * reach, point, corners);
+    };
+    visit_neighbours(first_face, rises, [&](const unsigned int f) {
+      if (!opposes(x, f, slave))
         return;
       Partner neighbour;
       neighbour.face       = f;
-      neighbour.projection = project(point, segment(x, master));
+      neighbour.projection = project(point, segment(x, masters[f]));
       neighbour.normal     = face_normal(x, neighbour);
       neighbour.gap        = neighbour.normal * neighbour.projection.offset;
       const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
       if (neighbour.gap <= reach && neighbour.gap >= in_front * slaves[slave].size &&
           beside.norm() <= part * reach)
-        add_to_corner(first, make_pair(x, slave, neighbour), pairs);
+        {
+          add_pair(x, slave, neighbour, pairs);
+          share_corner(first, pairs);
+        }
     });
     // The mean normal of an edge is none of its faces'.
     if (pairs[first].shares_corner && partner.projection.feature != Projection::Feature::face)
       {
-        partner.normal             = normal;
-        partner.gap                = normal * partner.projection.offset;
-        pairs[first]               = make_pair(x, slave, partner);
+        partner.normal = normal;
+        partner.gap    = normal * partner.projection.offset;
+        add_pair(x, slave, partner, pairs);
+        pairs[first] = pairs.back();
+        pairs.pop_back();
         pairs[first].shares_corner = true;
       }
   }
@@ -88,21 +93,24 @@ namespace akmon
     const auto point         = x[slaves[slave].number];
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
+        if (candidates_clear_of[i] - travelled_to(i) > reach || !opposes(x, candidates[i], slave))
+          continue;
         Partner partner;
         partner.face         = candidates[i];
-        const auto &shape    = shape_of(x, partner.face);
+        const auto area      = area_vector(segment(x, masters[partner.face]));
         const auto is_turned = [&](const ContactPair &other) {
-          return shape.normal * other.normal < turned * shape.area;
+          return area * other.normal < turned * area.norm();
         };
-        if (shape.bound_of_distance(point) > reach ||
-            !opposes(masters[partner.face], shape, slave) ||
-            !std::all_of(pairs.begin() + first, pairs.end(), is_turned))
+        if (!std::all_of(pairs.begin() + first, pairs.end(), is_turned))
           continue;
         partner.projection = project(point, segment(x, masters[partner.face]));
         if (partner.projection.feature == Projection::Feature::face &&
             partner.projection.offset.norm() <= reach && complete(x, slave, partner) &&
             partner.gap >= in_front * slaves[slave].size)
-          add_to_corner(first, make_pair(x, slave, partner), pairs);
+          {
+            add_pair(x, slave, partner, pairs);
+            share_corner(first, pairs);
+          }
       }
   }
 } // namespace akmon

@@ -15,7 +15,7 @@ namespace akmon
   {
     unsigned int count = 0;
     for (unsigned int i = faces_at_begin[node_a]; i < faces_at_begin[node_a + 1]; ++i)
-      for (const unsigned int node : masters[faces_at[i]].nodes)
+      for (const unsigned int node : masters[faces_at[i]])
         count += node == node_b;
     return count;
   }
@@ -60,8 +60,8 @@ namespace akmon
   {
     const auto &face       = masters[partner.face];
     const auto &projection = partner.projection;
-    const unsigned int a   = face.nodes[projection.where];
-    const unsigned int b   = face.nodes[(projection.where + 1) % 4];
+    const unsigned int a   = face[projection.where];
+    const unsigned int b   = face[(projection.where + 1) % 4];
     on_rim                 = false;
     if (projection.feature == Projection::Feature::face)
       return face_normal(x, partner);
@@ -70,10 +70,8 @@ namespace akmon
     for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
       {
         const auto &neighbour = masters[faces_at[i]];
-        const auto corner     = std::find(neighbour.nodes.begin(), neighbour.nodes.end(), a) -
-                            neighbour.nodes.begin();
-        const unsigned int next = neighbour.nodes[(corner + 1) % 4],
-                           last = neighbour.nodes[(corner + 3) % 4];
+        const auto corner = std::find(neighbour.begin(), neighbour.end(), a) - neighbour.begin();
+        const unsigned int next = neighbour[(corner + 1) % 4], last = neighbour[(corner + 3) % 4];
         if (projection.feature == Projection::Feature::edge)
           {
             if (next != b && last != b)
@@ -103,13 +101,13 @@ namespace akmon
         std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
       return false;
     const auto &face      = masters[partner.face];
-    const unsigned int a  = face.nodes[projection.where];
-    const unsigned int b  = face.nodes[(projection.where + 1) % 4];
+    const unsigned int a  = face[projection.where];
+    const unsigned int b  = face[(projection.where + 1) % 4];
     const double at_least = clearly * projection.offset.norm();
     std::vector<Segment> around;
     for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
       {
-        const auto &nodes = masters[faces_at[i]].nodes;
+        const auto &nodes = masters[faces_at[i]];
         if (projection.feature == Projection::Feature::vertex ||
             std::find(nodes.begin(), nodes.end(), b) != nodes.end())
           around.push_back(segment(x, masters[faces_at[i]]));
@@ -144,7 +142,7 @@ namespace akmon
     bool on_rim;
     partner.normal = feature_normal(x, partner, on_rim);
     partner.gap    = partner.normal * partner.projection.offset;
-    if (partner.gap > search_radius || partner.gap < -deepest_part * masters[partner.face].depth ||
+    if (partner.gap > search_radius || partner.gap < -deepest_part * fetched[partner.face].depth ||
         is_beside(x, partner))
       return false;
     if (!on_rim)

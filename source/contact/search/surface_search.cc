@@ -191,30 +191,34 @@ namespace akmon
     std::vector<ContactNodes::Id> needed;
     for (const auto &face : fetched)
       needed.insert(needed.end(), face.nodes.begin(), face.nodes.end());
+    for (const unsigned int f : slave_face_list)
+      for (const unsigned int node : slave_faces[f].nodes)
+        if (node >= discretization.n_owned_nodes)
+          needed.push_back(nodes.id_of_local(node));
     return needed;
   }
 
 
   void
   SurfaceSearch::build_candidates(const ContactNodes &nodes,
-                                  const NodalVector &positions,
                                   const ContactNodes::Field &x,
                                   const double moved)
   {
     settle_distances(moved);
     masters.clear();
-    std::vector<BoxGrid::Box> boxes; // by face
-    shapes.clear();
+    std::vector<BoxGrid::Box> boxes;   // by face
+    std::vector<Tensor<1, 3>> normals; // by face
     for (const auto &message : fetched)
       {
-        MasterFace face{message.body, message.depth, message.stiffness, {}};
+        FaceNodes face;
         for (unsigned int k = 0; k < 4; ++k)
-          face.nodes[k] = nodes.number(message.nodes[k]);
-        boxes.push_back(box_around(segment(x, face), search_radius));
+          face[k] = nodes.number(message.nodes[k]);
+        const Segment corners = segment(x, face);
+        boxes.push_back(box_around(corners, search_radius));
+        normals.push_back(unit_normal(corners));
         masters.push_back(face);
-        shapes.emplace_back(segment(x, face));
       }
-
+    number_slaves(nodes);
     collect_faces_at_nodes(nodes.size());
     grid.reinit(std::move(boxes));
     candidates.clear();
@@ -222,13 +226,11 @@ namespace akmon
       {
         Slave &slave          = slaves[s];
         slave.first_candidate = candidates.size();
-        slave.id              = nodes.id_of_local(slave.node);
-        slave.number          = nodes.number(slave.id);
-        const auto outward    = slave_normal(positions, s);
+        const auto outward    = slave_normal(x, s);
         const auto is_none    = [&](const unsigned int f) {
-          return !may_face(masters[f], shapes[f], slave.number, outward) ||
-                 (masters[f].body == discretization.body_of_node[slave.node] &&
-                  shapes[f].is_in_front_of(x[slave.number], masters[f].depth));
+          return !may_face(f, normals[f], s, outward) ||
+                 (fetched[f].body == discretization.body_of_node[slave.node] &&
+                  is_in_front_of(x, x[slave.number], f));
         };
         grid.collect(x[slave.number], candidates);
         candidates.erase(std::remove_if(candidates.begin() + slave.first_candidate,
@@ -245,18 +247,33 @@ namespace akmon
 
 
   void
+  SurfaceSearch::number_slaves(const ContactNodes &nodes)
+  {
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      {
+        slaves[s].id     = nodes.id_of_local(slaves[s].node);
+        slaves[s].number = nodes.number(slaves[s].id);
+      }
+    nodes_of_slave_faces.resize(slave_faces.size());
+    for (const unsigned int f : slave_face_list)
+      for (unsigned int k = 0; k < 4; ++k)
+        nodes_of_slave_faces[f][k] = nodes.number(nodes.id_of_local(slave_faces[f].nodes[k]));
+  }
+
+
+  void
   SurfaceSearch::collect_faces_at_nodes(const unsigned int n_nodes)
   {
     faces_at_begin.assign(n_nodes + 1, 0);
-    for (const MasterFace &face : masters)
-      for (const unsigned int node : face.nodes)
+    for (const FaceNodes &face : masters)
+      for (const unsigned int node : face)
         ++faces_at_begin[node + 1];
     for (unsigned int node = 0; node < n_nodes; ++node)
       faces_at_begin[node + 1] += faces_at_begin[node];
     faces_at.resize(faces_at_begin.back());
     std::vector<unsigned int> next(faces_at_begin.begin(), faces_at_begin.end() - 1);
     for (unsigned int f = 0; f < masters.size(); ++f)
-      for (const unsigned int node : masters[f].nodes)
+      for (const unsigned int node : masters[f])
         faces_at[next[node]++] = f;
   }
 
@@ -331,7 +348,7 @@ namespace akmon
         pairs_around_begin[s]    = first;
         for (unsigned int i = slaves[s].first_candidate; i < slaves[s + 1].first_candidate; ++i)
           {
-            const unsigned int pair = number_of_pair(body, masters[candidates[i]].body, known);
+            const unsigned int pair = number_of_pair(body, fetched[candidates[i]].body, known);
             pair_of_candidate.push_back(pair);
             if (std::find(pairs_around.begin() + first, pairs_around.end(), pair) ==
                 pairs_around.end())
@@ -350,32 +367,20 @@ namespace akmon
   }
 
 
-  // Whether a node of a body is in the cell behind one of the body's own faces, or further back: a
-  // cell that is pressed flat must not be taken for a body in contact with itself.
-  bool
-  SurfaceSearch::FaceShape::is_in_front_of(const Tensor<1, 3> &point, const double depth) const
-  {
-    constexpr double part = 0.25, beside = 0.5;
-
-    return box[2] * (middle - point) > part * depth &&
-           std::hypot(beyond(point - middle, 0), beyond(point - middle, 1)) <=
-             beside * std::sqrt(area);
-  }
-
-
   // Whether a face can come to look at a slave before the candidates are built anew. On a surface
   // in contact with itself most faces nearby are the slave's own neighbours: they look the same
   // way, and no motion within the radius turns them round.
   bool
-  SurfaceSearch::may_face(const MasterFace &face,
-                          const FaceShape &shape,
-                          const unsigned int slave_number,
-                          const Tensor<1, 3> &outward)
+  SurfaceSearch::may_face(const unsigned int face,
+                          const Tensor<1, 3> &normal,
+                          const unsigned int slave,
+                          const Tensor<1, 3> &outward) const
   {
     constexpr double same_way = 0.8; // cosine
 
-    const double product = shape.box[2] * outward;
+    const double product = normal * outward;
+    const auto &nodes    = masters[face];
     return (product <= 0. || product * product <= same_way * same_way * outward.norm_square()) &&
-           std::find(face.nodes.begin(), face.nodes.end(), slave_number) == face.nodes.end();
+           std::find(nodes.begin(), nodes.end(), slaves[slave].number) == nodes.end();
   }
 } // namespace akmon

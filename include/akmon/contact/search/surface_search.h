@@ -70,10 +70,7 @@ namespace akmon
      *   as what has been found out about distances still holds; length
      */
     void
-    build_candidates(const ContactNodes &nodes,
-                     const NodalVector &positions,
-                     const ContactNodes::Field &x,
-                     const double moved);
+    build_candidates(const ContactNodes &nodes, const ContactNodes::Field &x, const double moved);
 
     /// Append the bodies of slaves and of their candidates.
     void
@@ -87,11 +84,9 @@ namespace akmon
      * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
      * numbers: those that are inside, and those that are no further outside than the step may lead,
      * `steps` times what bodies nearby move in it and `least_reach` (length) at least.
-     * @param positions  the same configuration as a nodal vector
      */
     void
-    find_pairs(const NodalVector &positions,
-               const ContactNodes::Field &x,
+    find_pairs(const ContactNodes::Field &x,
                const BodyMotions &motions,
                const double steps,
                const double least_reach,
@@ -152,6 +147,8 @@ namespace akmon
       double reach; ///< length
     };
 
+    using FaceNodes = std::array<unsigned int, 4>; // contact numbers
+
     struct FaceMessage
     {
       dealii::types::global_cell_index id;
@@ -166,48 +163,6 @@ namespace akmon
       {
         archive &id &body &depth &stiffness &nodes;
       }
-    };
-
-    struct MasterFace
-    {
-      unsigned int body;
-      double depth, stiffness;
-      std::array<unsigned int, 4> nodes; ///< contact numbers
-    };
-
-    // A master face in the current configuration and a box around it.
-    struct FaceShape
-    {
-      dealii::Tensor<1, 3> normal, middle;     ///< area vector; length^2, length
-      double area;                             ///< length^2
-      std::array<dealii::Tensor<1, 3>, 3> box; ///< unit vectors along its edges, the last is normal
-      std::array<double, 3> half_widths;       ///< of the box around the middle; length
-      unsigned int measured_in = 0;            ///< the number of the search
-
-      explicit FaceShape(const Segment &corners);
-
-      // How far the box ends before a point in one of its directions.
-      double
-      beyond(const dealii::Tensor<1, 3> &from_middle, const unsigned int d) const
-      {
-        return std::max(0., std::abs(box[d] * from_middle) - half_widths[d]);
-      }
-
-      // No point of the face is closer to a point.
-      double
-      bound_of_distance(const dealii::Tensor<1, 3> &point) const
-      {
-        const auto from_middle = point - middle;
-        const double a = beyond(from_middle, 0), b = beyond(from_middle, 1),
-                     c = beyond(from_middle, 2);
-        return std::sqrt(a * a + b * b + c * c);
-      }
-
-      bool
-      rises_from(const dealii::Tensor<1, 3> &foot, const dealii::Tensor<1, 3> &normal) const;
-
-      bool
-      is_in_front_of(const dealii::Tensor<1, 3> &point, const double depth) const;
     };
 
     static constexpr double
@@ -236,13 +191,15 @@ namespace akmon
     RankRegions
     regions_of_slaves(const NodalVector &x) const;
     static Segment
-    segment(const ContactNodes::Field &x, const MasterFace &face)
+    segment(const ContactNodes::Field &x, const FaceNodes &nodes)
     {
-      return {{x[face.nodes[0]], x[face.nodes[1]], x[face.nodes[2]], x[face.nodes[3]]}};
+      return {{x[nodes[0]], x[nodes[1]], x[nodes[2]], x[nodes[3]]}};
     }
-    template <typename Visit>
+    template <typename Concerns, typename Visit>
     void
-    visit_neighbours(const unsigned int face, const Visit &visit) const;
+    visit_neighbours(const unsigned int face, const Concerns &concerns, const Visit &visit) const;
+    void
+    number_slaves(const ContactNodes &nodes);
     void
     collect_faces_at_nodes(const unsigned int n_nodes);
     void
@@ -265,21 +222,36 @@ namespace akmon
                   const double reach,
                   std::vector<ContactPair> &pairs);
     dealii::Tensor<1, 3>
-    slave_normal(const NodalVector &positions, const unsigned int slave) const;
-    const FaceShape &
-    shape_of(const ContactNodes::Field &x, const unsigned int face);
+    slave_normal(const ContactNodes::Field &x, const unsigned int slave) const;
+    double
+    travelled_to(const unsigned int candidate) const
+    {
+      return body_pairs[pair_of_candidate[candidate]].travelled;
+    }
+    void
+    bound_distances(const ContactNodes::Field &x, const unsigned int slave, const double further);
     bool
     closest_face(const ContactNodes::Field &x,
                  const unsigned int slave,
                  const double reach,
                  Partner &partner);
-    static bool
-    may_face(const MasterFace &face,
-             const FaceShape &shape,
-             const unsigned int slave_number,
-             const dealii::Tensor<1, 3> &outward);
     bool
-    opposes(const MasterFace &face, const FaceShape &shape, const unsigned int slave) const;
+    may_face(const unsigned int face,
+             const dealii::Tensor<1, 3> &normal,
+             const unsigned int slave,
+             const dealii::Tensor<1, 3> &outward) const;
+    bool
+    is_in_front_of(const ContactNodes::Field &x,
+                   const dealii::Tensor<1, 3> &point,
+                   const unsigned int face) const;
+    bool
+    looks_at(const unsigned int slave, const dealii::Tensor<1, 3> &area) const;
+    bool
+    opposes(const ContactNodes::Field &x, const unsigned int face, const unsigned int slave) const;
+    static bool
+    rises_from(const Segment &corners,
+               const dealii::Tensor<1, 3> &foot,
+               const dealii::Tensor<1, 3> &normal);
     void
     slide_to_neighbour(const ContactNodes::Field &x,
                        const unsigned int slave,
@@ -291,8 +263,11 @@ namespace akmon
     is_beside(const ContactNodes::Field &x, const Partner &partner) const;
     bool
     complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
-    ContactPair
-    make_pair(const ContactNodes::Field &x, const unsigned int slave, const Partner &partner) const;
+    void
+    add_pair(const ContactNodes::Field &x,
+             const unsigned int slave,
+             const Partner &partner,
+             std::vector<ContactPair> &pairs) const;
     void
     add_valley_pairs(const ContactNodes::Field &x,
                      const double reach,
@@ -321,6 +296,7 @@ namespace akmon
 
     std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list, candidates;
+    std::vector<FaceNodes> nodes_of_slave_faces;
     std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
     std::vector<Memory> memories;               ///< by slave
     std::vector<BodyPair> body_pairs;
@@ -329,30 +305,34 @@ namespace akmon
     std::vector<unsigned int> pair_of_candidate;
     std::vector<double> candidates_clear_of; ///< no closer, plus what their pairs have travelled
     std::vector<Look> looks;                 ///< in this search
-    std::vector<FaceMessage> fetched;                       ///< sorted by id
+    std::vector<double> bounds;              ///< of the distances of a slave's candidates
+    std::vector<unsigned int> near;          ///< of these candidates
+    std::vector<FaceMessage> fetched;        ///< sorted by id
     std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
-    std::vector<MasterFace> masters;                        ///< in the same order
-    std::vector<FaceShape> shapes; ///< of the candidate faces, in the same numbers
-    unsigned int n_searches = 0;
+    std::vector<FaceNodes> masters;                         ///< in the same order
     BoxGrid grid;                             ///< of the master faces, widened by the radius
     std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
   };
 
 
-  // visit(f) for every face that shares a node with a face, once: at the first of these nodes.
-  template <typename Visit>
+  // visit(f) for every face that shares a node with a face and concerns it, once: at the first of
+  // these nodes. What concerns(f) tells must not depend on how often it is asked.
+  template <typename Concerns, typename Visit>
   void
-  SurfaceSearch::visit_neighbours(const unsigned int face, const Visit &visit) const
+  SurfaceSearch::visit_neighbours(const unsigned int face,
+                                  const Concerns &concerns,
+                                  const Visit &visit) const
   {
-    const auto &nodes = masters[face].nodes;
+    const auto &nodes = masters[face];
     for (auto node = nodes.begin(); node != nodes.end(); ++node)
       for (unsigned int i = faces_at_begin[*node]; i < faces_at_begin[*node + 1]; ++i)
         {
-          const auto &others = masters[faces_at[i]].nodes;
-          if (faces_at[i] != face &&
+          const unsigned int neighbour = faces_at[i];
+          const auto &others           = masters[neighbour];
+          if (neighbour != face && concerns(neighbour) &&
               std::find_first_of(nodes.begin(), node, others.begin(), others.end()) == node)
-            visit(faces_at[i]);
+            visit(neighbour);
         }
   }
 } // namespace akmon

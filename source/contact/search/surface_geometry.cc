@@ -1,0 +1,150 @@
+#include <akmon/contact/search/face_box.h>
+#include <akmon/contact/search/face_geometry.h>
+#include <akmon/contact/search/surface_search.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+// How far faces are from slaves at least, and which way they look.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::array<double, 3>
+    components(const Tensor<1, 3> &vector)
+    {
+      return {{vector[0], vector[1], vector[2]}};
+    }
+
+
+    // Corners of as many segments as there are lanes.
+    struct LaneCorners
+    {
+      alignas(lane_alignment) double values[4][3][n_lanes] = {};
+
+      void
+      set(const unsigned int lane, const Segment &corners)
+      {
+        for (unsigned int k = 0; k < 4; ++k)
+          for (unsigned int d = 0; d < 3; ++d)
+            values[k][d][lane] = corners[k][d];
+      }
+
+      FaceBox<Lanes>
+      boxes() const
+      {
+        std::array<FaceBox<Lanes>::Vector, 4> corners;
+        for (unsigned int k = 0; k < 4; ++k)
+          for (unsigned int d = 0; d < 3; ++d)
+            load(values[k][d], corners[k][d]);
+        return FaceBox<Lanes>(corners);
+      }
+    };
+  } // namespace
+
+
+  // Sum of the area vectors of the slave faces around a node.
+  Tensor<1, 3>
+  SurfaceSearch::slave_normal(const ContactNodes::Field &x, const unsigned int slave) const
+  {
+    Tensor<1, 3> normal;
+    for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
+      normal += area_vector(segment(x, nodes_of_slave_faces[slave_face_list[i]]));
+    return normal;
+  }
+
+
+  // Whether a node of a body is in the cell behind one of the body's own faces, or further back: a
+  // cell that is pressed flat must not be taken for a body in contact with itself.
+  bool
+  SurfaceSearch::is_in_front_of(const ContactNodes::Field &x,
+                                const Tensor<1, 3> &point,
+                                const unsigned int face) const
+  {
+    constexpr double part = 0.25, beside = 0.5;
+
+    std::array<FaceBox<double>::Vector, 4> corners;
+    for (unsigned int k = 0; k < 4; ++k)
+      corners[k] = components(x[masters[face][k]]);
+    const FaceBox<double> box(corners);
+    const auto from_middle = FaceBox<double>::difference(components(point), box.middle);
+    return FaceBox<double>::dot(box.edges[2], from_middle) < -part * fetched[face].depth &&
+           std::hypot(box.beyond(from_middle, 0), box.beyond(from_middle, 1)) <=
+             beside * std::sqrt(box.area);
+  }
+
+
+  // Bounds of the distances of a slave's candidates, in their order: what is known of those that
+  // are further than a distance, and of the others by the boxes around them.
+  void
+  SurfaceSearch::bound_distances(const ContactNodes::Field &x,
+                                 const unsigned int slave,
+                                 const double further)
+  {
+    const unsigned int first = slaves[slave].first_candidate,
+                       n     = slaves[slave + 1].first_candidate - first;
+    bounds.resize(n);
+    near.clear();
+    for (unsigned int i = 0; i < n; ++i)
+      {
+        bounds[i] = candidates_clear_of[first + i] - travelled_to(first + i);
+        if (bounds[i] <= further)
+          near.push_back(i);
+      }
+    const auto point = x[slaves[slave].number];
+    const FaceBox<Lanes>::Vector points{{point[0], point[1], point[2]}};
+    for (unsigned int begin = 0; begin < near.size(); begin += n_lanes)
+      {
+        const unsigned int n_here = std::min<unsigned int>(near.size() - begin, n_lanes);
+        LaneCorners corners;
+        for (unsigned int lane = 0; lane < n_here; ++lane)
+          corners.set(lane, segment(x, masters[candidates[first + near[begin + lane]]]));
+        alignas(lane_alignment) double distances[n_lanes];
+        store(corners.boxes().bound_of_distance(points), distances);
+        for (unsigned int lane = 0; lane < n_here; ++lane)
+          {
+            const unsigned int i           = near[begin + lane];
+            bounds[i]                      = distances[lane];
+            candidates_clear_of[first + i] = travelled_to(first + i) + distances[lane];
+          }
+      }
+  }
+
+
+  // Whether a face with an area vector looks towards the slave's surface.
+  bool
+  SurfaceSearch::looks_at(const unsigned int slave, const Tensor<1, 3> &area) const
+  {
+    const auto &outward = outwards[slave];
+    return area * outward <= -opposed * (outward.norm() * area.norm());
+  }
+
+
+  // Whether it is no part of that surface besides.
+  bool
+  SurfaceSearch::opposes(const ContactNodes::Field &x,
+                         const unsigned int face,
+                         const unsigned int slave) const
+  {
+    const auto &nodes = masters[face];
+    return looks_at(slave, area_vector(segment(x, nodes))) &&
+           std::find(nodes.begin(), nodes.end(), slaves[slave].number) == nodes.end();
+  }
+
+
+  // Whether a face rises in front of the one beside it with a normal at a foot.
+  bool
+  SurfaceSearch::rises_from(const Segment &corners,
+                            const Tensor<1, 3> &foot,
+                            const Tensor<1, 3> &normal)
+  {
+    constexpr double nearly_flat = 0.99875; // cosine of 0.05
+
+    const auto middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    return (middle - foot) * normal > 0. && unit_normal(corners) * normal <= nearly_flat;
+  }
+} // namespace akmon
