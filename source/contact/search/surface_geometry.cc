@@ -119,8 +119,10 @@ namespace akmon
   bool
   SurfaceSearch::looks_at(const unsigned int slave, const Tensor<1, 3> &area) const
   {
-    const auto &outward = outwards[slave];
-    return area * outward <= -opposed * (outward.norm() * area.norm());
+    const auto &outward  = outwards[slave];
+    const double product = area * outward, area_2 = area.norm_square();
+    return area_2 > 0. && product <= 0. &&
+           product * product >= opposed * opposed * area_2 * outward.norm_square();
   }
 
 

@@ -211,10 +211,27 @@ namespace akmon
     advance(motions);
     choose_looks(steps, least_reach);
     for (const auto &[slave, reach] : looks)
-      {
-        outwards[slave] = slave_normal(x, slave);
+      if (!is_still_outside(x, slave, reach))
         find_pairs_of(x, slave, reach, pairs);
-      }
+  }
+
+
+  // Whether a slave that was further outside than the step may lead is so again, by the boxes
+  // around the faces alone: no face can have passed it since.
+  bool
+  SurfaceSearch::is_still_outside(const ContactNodes::Field &x,
+                                  const unsigned int slave,
+                                  const double reach)
+  {
+    Memory &memory = memories[slave];
+    if (!memory.was_outside || memory.clear_of <= 0.)
+      return false;
+    bound_distances(x, slave, reach);
+    const double least = *std::min_element(bounds.begin(), bounds.end());
+    if (least <= reach)
+      return false;
+    memory.clear_of = memory.others_clear_of = least;
+    return true;
   }
 
 
@@ -224,7 +241,9 @@ namespace akmon
                                const double reach,
                                std::vector<ContactPair> &pairs)
   {
-    Memory &memory = memories[slave];
+    Memory &memory     = memories[slave];
+    memory.was_outside = false;
+    outwards[slave]    = slave_normal(x, slave);
     Partner partner;
     if (!closest_face(x, slave, furthest * reach, partner))
       {
@@ -239,8 +258,9 @@ namespace akmon
     const bool outside = partner.projection.offset *
                            area_vector(segment(x, masters[partner.face])) >
                          0.;
-    memory.clear_of = outside ? distance : 0.;
-    if ((outside && distance > reach) || !complete(x, slave, partner))
+    memory.clear_of    = outside ? distance : 0.;
+    memory.was_outside = outside && distance > reach;
+    if (memory.was_outside || !complete(x, slave, partner))
       return;
     add_pair(x, slave, partner, pairs);
     if (coupled && distance <= reach && memory.others_clear_of <= furthest * reach)

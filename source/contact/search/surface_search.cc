@@ -227,16 +227,13 @@ namespace akmon
         Slave &slave          = slaves[s];
         slave.first_candidate = candidates.size();
         const auto outward    = slave_normal(x, s);
-        const auto is_none    = [&](const unsigned int f) {
-          return !may_face(f, normals[f], s, outward) ||
-                 (fetched[f].body == discretization.body_of_node[slave.node] &&
-                  is_in_front_of(x, x[slave.number], f));
-        };
-        grid.collect(x[slave.number], candidates);
-        candidates.erase(std::remove_if(candidates.begin() + slave.first_candidate,
-                                        candidates.end(),
-                                        is_none),
-                         candidates.end());
+        const auto point      = x[slave.number];
+        grid.visit_holding(point, [&](const unsigned int f) {
+          if (may_face(f, normals[f], s, outward) &&
+              !(fetched[f].body == discretization.body_of_node[slave.node] &&
+                is_in_front_of(x, point, f)))
+            candidates.push_back(f);
+        });
       }
     slaves.back().first_candidate = candidates.size();
     candidates_clear_of.assign(candidates.size(), 0.);

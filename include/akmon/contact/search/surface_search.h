@@ -174,8 +174,9 @@ namespace akmon
     struct Memory
     {
       unsigned int face      = dealii::numbers::invalid_unsigned_int; ///< the last partner's
-      double clear_of        = 0.;                                    ///< no face is closer; length
-      double others_clear_of = 0.; ///< no other face is closer; length
+      bool was_outside       = false; ///< of that face, and further than the reach
+      double clear_of        = 0.;    ///< no face is closer; length
+      double others_clear_of = 0.;    ///< no other face is closer; length
     };
 
     struct Partner
@@ -216,6 +217,8 @@ namespace akmon
     advance(const BodyMotions &motions);
     void
     choose_looks(const double steps, const double least_reach);
+    bool
+    is_still_outside(const ContactNodes::Field &x, const unsigned int slave, const double reach);
     void
     find_pairs_of(const ContactNodes::Field &x,
                   const unsigned int slave,
