@@ -180,22 +180,22 @@ namespace akmon
   void
   SurfaceSearch::choose_looks(const double steps, const double least_reach)
   {
+    motions_around.assign(slaves.size(), Motion());
+    for (const auto &[slave, pair] : pairs_around)
+      {
+        Motion &motion   = motions_around[slave];
+        motion.increment = std::max(motion.increment, body_pairs[pair].increment);
+        motion.approach  = std::max(motion.approach, body_pairs[pair].approach);
+      }
     looks.clear();
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
-        const unsigned int begin = pairs_around_begin[s], end = pairs_around_begin[s + 1];
-        if (begin == end)
-          continue;
-        double approach = 0., increment = 0.;
-        for (unsigned int i = begin; i < end; ++i)
-          {
-            approach  = std::max(approach, body_pairs[pairs_around[i]].approach);
-            increment = std::max(increment, body_pairs[pairs_around[i]].increment);
-          }
+        const auto &[increment, approach] = motions_around[s];
         memories[s].clear_of -= approach;
         memories[s].others_clear_of -= approach;
         const double reach = std::max(least_reach, steps * increment);
-        if (memories[s].clear_of <= reach)
+        if (memories[s].clear_of <= reach &&
+            slaves[s].first_candidate < slaves[s + 1].first_candidate)
           looks.push_back({s, reach});
       }
   }

@@ -310,7 +310,6 @@ namespace akmon
     candidates.clear();
     body_pairs.clear();
     pairs_around.clear();
-    pairs_around_begin.assign(slaves.size(), 0);
     for (Slave &slave : slaves)
       slave.first_candidate = 0;
   }
@@ -340,19 +339,18 @@ namespace akmon
     std::vector<std::vector<unsigned int>> known(discretization.get_bodies().size());
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
-        const unsigned int first = pairs_around.size();
-        const unsigned int body  = discretization.body_of_node[slaves[s].node];
-        pairs_around_begin[s]    = first;
+        const std::size_t first = pairs_around.size();
+        const unsigned int body = discretization.body_of_node[slaves[s].node];
         for (unsigned int i = slaves[s].first_candidate; i < slaves[s + 1].first_candidate; ++i)
           {
             const unsigned int pair = number_of_pair(body, fetched[candidates[i]].body, known);
             pair_of_candidate.push_back(pair);
-            if (std::find(pairs_around.begin() + first, pairs_around.end(), pair) ==
-                pairs_around.end())
-              pairs_around.push_back(pair);
+            if (std::none_of(pairs_around.begin() + first,
+                             pairs_around.end(),
+                             [&](const PairAround &around) { return around.pair == pair; }))
+              pairs_around.push_back({s, pair});
           }
       }
-    pairs_around_begin.back() = pairs_around.size();
   }
 
 

@@ -25,8 +25,10 @@ namespace akmon
       bool
       holds(const dealii::Tensor<1, 3> &x) const
       {
-        return lower[0] <= x[0] && x[0] <= upper[0] && lower[1] <= x[1] && x[1] <= upper[1] &&
-               lower[2] <= x[2] && x[2] <= upper[2];
+        bool inside = true; // without branches, which nobody could foretell
+        for (unsigned int d = 0; d < 3; ++d)
+          inside = inside & (lower[d] <= x[d]) & (x[d] <= upper[d]);
+        return inside;
       }
     };
 

@@ -140,6 +140,18 @@ namespace akmon
       double travelled = 0.; ///< the same since the last build; length
     };
 
+    // A pair of bodies that a slave has candidates in.
+    struct PairAround
+    {
+      unsigned int slave, pair;
+    };
+
+    // What a slave has around it: the largest of its pairs of bodies; length.
+    struct Motion
+    {
+      double increment = 0., approach = 0.;
+    };
+
     // A slave that may be within its reach of a face.
     struct Look
     {
@@ -303,10 +315,10 @@ namespace akmon
     std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
     std::vector<Memory> memories;               ///< by slave
     std::vector<BodyPair> body_pairs;
-    std::vector<unsigned int> pairs_around_begin; ///< by slave: first entry in pairs_around
-    std::vector<unsigned int> pairs_around;       ///< numbers of body pairs
+    std::vector<PairAround> pairs_around; ///< by slave
     std::vector<unsigned int> pair_of_candidate;
     std::vector<double> candidates_clear_of; ///< no closer, plus what their pairs have travelled
+    std::vector<Motion> motions_around;      ///< by slave, in this step
     std::vector<Look> looks;                 ///< in this search
     std::vector<double> bounds;              ///< of the distances of a slave's candidates
     std::vector<unsigned int> near;          ///< of these candidates
