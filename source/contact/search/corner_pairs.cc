@@ -1,6 +1,7 @@
 #include <akmon/contact/search/surface_search.h>
 
 #include <algorithm>
+#include <tuple>
 
 // Further partners of a slave: where the master surface is concave one face is not enough.
 
@@ -24,6 +25,42 @@ namespace akmon
   } // namespace
 
 
+  // The faces beside a slave's partner, with the normal at its foot, that rise from it and are
+  // within reach: candidates all. In the order of the first nodes they share, for the order of the
+  // pairs.
+  void
+  SurfaceSearch::find_valley(const ContactNodes::Field &x,
+                             const unsigned int slave,
+                             const double reach,
+                             const Partner &partner,
+                             const Tensor<1, 3> &normal)
+  {
+    valley.clear();
+    const auto &nodes = masters[partner.face];
+    const auto foot   = x[slaves[slave].number] - partner.projection.offset;
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+      {
+        const unsigned int f = candidates[i];
+        if (f == partner.face || bound_of_distance(i) > furthest * reach)
+          continue;
+        const auto &others = masters[f];
+        const auto shared  = std::find_first_of(nodes.begin(),
+                                               nodes.end(),
+                                               others.begin(),
+                                               others.end());
+        if (shared != nodes.end() && rises_from(segment(x, others), foot, normal) &&
+            opposes(x, f, slave))
+          valley.push_back({static_cast<unsigned int>(shared - nodes.begin()), f});
+      }
+    std::sort(valley.begin(), valley.end(), [](const auto &a, const auto &b) {
+      return std::tie(a.shared, a.number) < std::tie(b.shared, b.number);
+    });
+    // What rises from the face at 30 degrees is half as far as the edge.
+    if (!valley.empty() && distance_to_border(foot, segment(x, nodes)) > 2.1 * reach)
+      valley.clear();
+  }
+
+
   // The neighbours across the edges of a valley that the slave may cross in the step: it must stay
   // before both faces, whose normals differ. The gap to the closest point alone, along the normal
   // of the face it leaves, would be found wrong by the solution only, and friction drags the slave
@@ -39,33 +76,24 @@ namespace akmon
     if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
       return;
     const std::size_t first  = pairs.size() - 1;
-    const unsigned int slave = pairs[first].row, first_face = partner.face;
-    const auto point  = x[slaves[slave].number];
-    const auto foot   = point - partner.projection.offset;
-    const auto normal = face_normal(x, partner);
-    // What rises from the face at 30 degrees is half as far as the edge.
-    if (distance_to_border(foot, segment(x, masters[first_face])) > 2.1 * reach)
-      return;
-    const auto rises = [&](const unsigned int f) {
-      const auto corners = segment(x, masters[f]);
-      return rises_from(corners, foot, normal) && may_be_within(furthest * reach, point, corners);
-    };
-    visit_neighbours(first_face, rises, [&](const unsigned int f) {
-      if (!opposes(x, f, slave))
-        return;
-      Partner neighbour;
-      neighbour.face       = f;
-      neighbour.projection = project(point, segment(x, masters[f]));
-      neighbour.normal     = face_normal(x, neighbour);
-      neighbour.gap        = neighbour.normal * neighbour.projection.offset;
-      const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
-      if (neighbour.gap <= reach && neighbour.gap >= in_front * slaves[slave].size &&
-          beside.norm() <= part * reach)
-        {
-          add_pair(x, slave, neighbour, pairs);
-          share_corner(first, pairs);
-        }
-    });
+    const unsigned int slave = pairs[first].row;
+    const auto normal        = face_normal(x, partner);
+    find_valley(x, slave, reach, partner, normal);
+    for (const ValleyFace &face : valley)
+      {
+        Partner neighbour;
+        neighbour.face       = face.number;
+        neighbour.projection = project(x[slaves[slave].number], segment(x, masters[face.number]));
+        neighbour.normal     = face_normal(x, neighbour);
+        neighbour.gap        = neighbour.normal * neighbour.projection.offset;
+        const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
+        if (neighbour.gap <= reach && neighbour.gap >= in_front * slaves[slave].size &&
+            beside.norm() <= part * reach)
+          {
+            add_pair(x, slave, neighbour, pairs);
+            share_corner(first, pairs);
+          }
+      }
     // The mean normal of an edge is none of its faces'.
     if (pairs[first].shares_corner && partner.projection.feature != Projection::Feature::face)
       {
@@ -93,7 +121,7 @@ namespace akmon
     const auto point         = x[slaves[slave].number];
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        if (candidates_clear_of[i] - travelled_to(i) > reach || !opposes(x, candidates[i], slave))
+        if (bound_of_distance(i) > reach || !opposes(x, candidates[i], slave))
           continue;
         Partner partner;
         partner.face         = candidates[i];

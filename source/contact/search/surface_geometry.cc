@@ -78,38 +78,55 @@ namespace akmon
   }
 
 
-  // Bounds of the distances of a slave's candidates, in their order: what is known of those that
-  // are further than a distance, and of the others by the boxes around them.
+  // The candidates that may be within reach, of the slaves for which it matters.
   void
-  SurfaceSearch::bound_distances(const ContactNodes::Field &x,
-                                 const unsigned int slave,
-                                 const double further)
+  SurfaceSearch::choose_near_candidates()
   {
-    const unsigned int first = slaves[slave].first_candidate,
-                       n     = slaves[slave + 1].first_candidate - first;
-    bounds.resize(n);
-    near.clear();
-    for (unsigned int i = 0; i < n; ++i)
+    near.resize(candidates.size());
+    n_near = 0;
+    for (const auto &[slave, reach] : looks)
       {
-        bounds[i] = candidates_clear_of[first + i] - travelled_to(first + i);
-        if (bounds[i] <= further)
-          near.push_back(i);
+        const Memory &memory   = memories[slave];
+        const double within    = furthest * reach;
+        const bool one_will_do = !memory.was_outside && memory.others_clear_of > within &&
+                                 memory.face != numbers::invalid_unsigned_int;
+        if (!one_will_do)
+          for (unsigned int i = slaves[slave].first_candidate;
+               i < slaves[slave + 1].first_candidate;
+               ++i)
+            {
+              near[n_near] = {slaves[slave].number, i};
+              n_near += bound_of_distance(i) <= within; // without a branch
+            }
       }
-    const auto point = x[slaves[slave].number];
-    const FaceBox<Lanes>::Vector points{{point[0], point[1], point[2]}};
-    for (unsigned int begin = 0; begin < near.size(); begin += n_lanes)
+  }
+
+
+  // By the boxes around them.
+  void
+  SurfaceSearch::bound_distances(const ContactNodes::Field &x)
+  {
+    LaneCorners corners;
+    alignas(lane_alignment) double places[3][n_lanes] = {}, distances[n_lanes];
+    for (unsigned int begin = 0; begin < n_near; begin += n_lanes)
       {
-        const unsigned int n_here = std::min<unsigned int>(near.size() - begin, n_lanes);
-        LaneCorners corners;
+        const unsigned int n_here = std::min(n_near - begin, n_lanes);
         for (unsigned int lane = 0; lane < n_here; ++lane)
-          corners.set(lane, segment(x, masters[candidates[first + near[begin + lane]]]));
-        alignas(lane_alignment) double distances[n_lanes];
+          {
+            const auto &[node, candidate] = near[begin + lane];
+            corners.set(lane, segment(x, masters[candidates[candidate]]));
+            const auto place = x[node];
+            for (unsigned int d = 0; d < 3; ++d)
+              places[d][lane] = place[d];
+          }
+        FaceBox<Lanes>::Vector points;
+        for (unsigned int d = 0; d < 3; ++d)
+          load(places[d], points[d]);
         store(corners.boxes().bound_of_distance(points), distances);
         for (unsigned int lane = 0; lane < n_here; ++lane)
           {
-            const unsigned int i           = near[begin + lane];
-            bounds[i]                      = distances[lane];
-            candidates_clear_of[first + i] = travelled_to(first + i) + distances[lane];
+            const unsigned int i   = near[begin + lane].candidate;
+            candidates_clear_of[i] = body_pairs[pair_of_candidate[i]].travelled + distances[lane];
           }
       }
   }

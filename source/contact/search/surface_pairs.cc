@@ -34,19 +34,19 @@ namespace akmon
             return true;
         }
     const Projection of_last = partner.projection;
-    bound_distances(x, slave, std::max(bound, reach));
     std::array<double, 2> least_bounds{{largest, largest}}; // of all faces
     unsigned int with_least = numbers::invalid_unsigned_int;
-    for (unsigned int i = 0; i < bounds.size(); ++i)
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const unsigned int f = candidates[slaves[slave].first_candidate + i];
-        least_bounds[1]      = std::min(least_bounds[1], std::max(bounds[i], least_bounds[0]));
-        if (bounds[i] < least_bounds[0])
+        const unsigned int f  = candidates[i];
+        const double at_least = bound_of_distance(i);
+        least_bounds[1]       = std::min(least_bounds[1], std::max(at_least, least_bounds[0]));
+        if (at_least < least_bounds[0])
           {
-            least_bounds[0] = bounds[i];
+            least_bounds[0] = at_least;
             with_least      = f;
           }
-        if (f != memory.face && bounds[i] > std::min(bound, best))
+        if (f != memory.face && at_least > std::min(bound, best))
           continue;
         const auto corners = segment(x, masters[f]);
         if (!looks_at(slave, area_vector(corners)))
@@ -103,12 +103,10 @@ namespace akmon
     const auto foot         = point - partner.projection.offset;
     const auto normal       = face_normal(x, partner);
     double best             = partner.projection.offset.norm();
-    const auto is_near      = [&](const unsigned int f) {
-      return may_be_within(best, point, segment(x, masters[f]));
-    };
-    visit_neighbours(left, is_near, [&](const unsigned int f) {
+    visit_neighbours(left, [&](const unsigned int f) {
       const auto corners = segment(x, masters[f]);
-      if (!opposes(x, f, slave) || (across_ridges_only && rises_from(corners, foot, normal)))
+      if (f == partner.face || !may_be_within(best, point, corners) || !opposes(x, f, slave) ||
+          (across_ridges_only && rises_from(corners, foot, normal)))
         return;
       const auto projection = project(point, corners);
       if (projection.offset.norm() < best)
@@ -210,8 +208,10 @@ namespace akmon
   {
     advance(motions);
     choose_looks(steps, least_reach);
+    choose_near_candidates();
+    bound_distances(x);
     for (const auto &[slave, reach] : looks)
-      if (!is_still_outside(x, slave, reach))
+      if (!is_still_outside(slave, reach))
         find_pairs_of(x, slave, reach, pairs);
   }
 
@@ -219,15 +219,14 @@ namespace akmon
   // Whether a slave that was further outside than the step may lead is so again, by the boxes
   // around the faces alone: no face can have passed it since.
   bool
-  SurfaceSearch::is_still_outside(const ContactNodes::Field &x,
-                                  const unsigned int slave,
-                                  const double reach)
+  SurfaceSearch::is_still_outside(const unsigned int slave, const double reach)
   {
     Memory &memory = memories[slave];
     if (!memory.was_outside || memory.clear_of <= 0.)
       return false;
-    bound_distances(x, slave, reach);
-    const double least = *std::min_element(bounds.begin(), bounds.end());
+    double least = std::numeric_limits<double>::max();
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+      least = std::min(least, bound_of_distance(i));
     if (least <= reach)
       return false;
     memory.clear_of = memory.others_clear_of = least;

@@ -77,7 +77,7 @@ namespace akmon
       double clear_of = 0.; ///< the least of the slaves; length
     };
 
-    static constexpr std::size_t n_in_group = 32;
+    static constexpr std::size_t n_in_group = 8;
 
     // The body in a step.
     struct Place

@@ -181,6 +181,18 @@ namespace akmon
       furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
 
+    // A candidate that may be within the reach of a slave.
+    struct Near
+    {
+      unsigned int node, candidate; ///< contact number; in candidates
+    };
+
+    // A face beside a slave's partner that rises from it.
+    struct ValleyFace
+    {
+      unsigned int shared, number; ///< the first node they share, in the partner; in masters
+    };
+
     // What earlier searches have found out about a slave, less what its surroundings may have come
     // closer since.
     struct Memory
@@ -208,9 +220,9 @@ namespace akmon
     {
       return {{x[nodes[0]], x[nodes[1]], x[nodes[2]], x[nodes[3]]}};
     }
-    template <typename Concerns, typename Visit>
+    template <typename Visit>
     void
-    visit_neighbours(const unsigned int face, const Concerns &concerns, const Visit &visit) const;
+    visit_neighbours(const unsigned int face, const Visit &visit) const;
     void
     number_slaves(const ContactNodes &nodes);
     void
@@ -230,7 +242,7 @@ namespace akmon
     void
     choose_looks(const double steps, const double least_reach);
     bool
-    is_still_outside(const ContactNodes::Field &x, const unsigned int slave, const double reach);
+    is_still_outside(const unsigned int slave, const double reach);
     void
     find_pairs_of(const ContactNodes::Field &x,
                   const unsigned int slave,
@@ -239,12 +251,14 @@ namespace akmon
     dealii::Tensor<1, 3>
     slave_normal(const ContactNodes::Field &x, const unsigned int slave) const;
     double
-    travelled_to(const unsigned int candidate) const
+    bound_of_distance(const unsigned int candidate) const
     {
-      return body_pairs[pair_of_candidate[candidate]].travelled;
+      return candidates_clear_of[candidate] - body_pairs[pair_of_candidate[candidate]].travelled;
     }
     void
-    bound_distances(const ContactNodes::Field &x, const unsigned int slave, const double further);
+    choose_near_candidates();
+    void
+    bound_distances(const ContactNodes::Field &x);
     bool
     closest_face(const ContactNodes::Field &x,
                  const unsigned int slave,
@@ -284,6 +298,12 @@ namespace akmon
              const Partner &partner,
              std::vector<ContactPair> &pairs) const;
     void
+    find_valley(const ContactNodes::Field &x,
+                const unsigned int slave,
+                const double reach,
+                const Partner &partner,
+                const dealii::Tensor<1, 3> &normal);
+    void
     add_valley_pairs(const ContactNodes::Field &x,
                      const double reach,
                      Partner partner,
@@ -320,9 +340,10 @@ namespace akmon
     std::vector<double> candidates_clear_of; ///< no closer, plus what their pairs have travelled
     std::vector<Motion> motions_around;      ///< by slave, in this step
     std::vector<Look> looks;                 ///< in this search
-    std::vector<double> bounds;              ///< of the distances of a slave's candidates
-    std::vector<unsigned int> near;          ///< of these candidates
-    std::vector<FaceMessage> fetched;        ///< sorted by id
+    std::vector<Near> near;                  ///< in this search, the first n_near ones
+    unsigned int n_near = 0;
+    std::vector<ValleyFace> valley;                         ///< of a slave
+    std::vector<FaceMessage> fetched;                       ///< sorted by id
     std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
     std::vector<FaceNodes> masters;                         ///< in the same order
     BoxGrid grid;                             ///< of the master faces, widened by the radius
@@ -331,23 +352,15 @@ namespace akmon
   };
 
 
-  // visit(f) for every face that shares a node with a face and concerns it, once: at the first of
-  // these nodes. What concerns(f) tells must not depend on how often it is asked.
-  template <typename Concerns, typename Visit>
+  // visit(f) for every face that shares a node with a face: at the first of these nodes, and
+  // perhaps at others again.
+  template <typename Visit>
   void
-  SurfaceSearch::visit_neighbours(const unsigned int face,
-                                  const Concerns &concerns,
-                                  const Visit &visit) const
+  SurfaceSearch::visit_neighbours(const unsigned int face, const Visit &visit) const
   {
-    const auto &nodes = masters[face];
-    for (auto node = nodes.begin(); node != nodes.end(); ++node)
-      for (unsigned int i = faces_at_begin[*node]; i < faces_at_begin[*node + 1]; ++i)
-        {
-          const unsigned int neighbour = faces_at[i];
-          const auto &others           = masters[neighbour];
-          if (neighbour != face && concerns(neighbour) &&
-              std::find_first_of(nodes.begin(), node, others.begin(), others.end()) == node)
-            visit(neighbour);
-        }
+    for (const unsigned int node : masters[face])
+      for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
+        if (faces_at[i] != face)
+          visit(faces_at[i]);
   }
 } // namespace akmon
