@@ -36,14 +36,14 @@ namespace akmon
                              const Tensor<1, 3> &normal)
   {
     valley.clear();
-    const auto &nodes = masters[partner.face];
+    const auto &nodes = masters[partner.face].nodes;
     const auto foot   = x[slaves[slave].number] - partner.projection.offset;
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
         const unsigned int f = candidates[i];
         if (f == partner.face || bound_of_distance(i) > furthest * reach)
           continue;
-        const auto &others = masters[f];
+        const auto &others = masters[f].nodes;
         const auto shared  = std::find_first_of(nodes.begin(),
                                                nodes.end(),
                                                others.begin(),

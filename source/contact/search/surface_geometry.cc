@@ -53,7 +53,7 @@ namespace akmon
   {
     Tensor<1, 3> normal;
     for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
-      normal += area_vector(segment(x, nodes_of_slave_faces[slave_face_list[i]]));
+      normal += area_vector(segment(x, nodes_of_slave_faces[i]));
     return normal;
   }
 
@@ -69,10 +69,10 @@ namespace akmon
 
     std::array<FaceBox<double>::Vector, 4> corners;
     for (unsigned int k = 0; k < 4; ++k)
-      corners[k] = components(x[masters[face][k]]);
+      corners[k] = components(x[masters[face].nodes[k]]);
     const FaceBox<double> box(corners);
     const auto from_middle = FaceBox<double>::difference(components(point), box.middle);
-    return FaceBox<double>::dot(box.edges[2], from_middle) < -part * fetched[face].depth &&
+    return FaceBox<double>::dot(box.edges[2], from_middle) < -part * masters[face].depth &&
            std::hypot(box.beyond(from_middle, 0), box.beyond(from_middle, 1)) <=
              beside * std::sqrt(box.area);
   }
@@ -149,7 +149,7 @@ namespace akmon
                          const unsigned int face,
                          const unsigned int slave) const
   {
-    const auto &nodes = masters[face];
+    const auto &nodes = masters[face].nodes;
     return looks_at(slave, area_vector(segment(x, nodes))) &&
            std::find(nodes.begin(), nodes.end(), slaves[slave].number) == nodes.end();
   }

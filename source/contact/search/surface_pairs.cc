@@ -137,7 +137,7 @@ namespace akmon
     pair.normal       = partner.normal;
     pair.gap          = partner.gap;
     pair.size         = slaves[slave].size;
-    pair.stiffness    = std::min(slaves[slave].stiffness, fetched[partner.face].stiffness);
+    pair.stiffness    = std::min(slaves[slave].stiffness, masters[partner.face].stiffness);
     pair.nodes[0]     = slaves[slave].number;
     pair.place        = x[slaves[slave].number];
     pair.weights[0]   = 1.;
@@ -151,7 +151,7 @@ namespace akmon
     for (unsigned int k = 0; k < 4; ++k)
       if (levered || partner.projection.N[k] != 0.)
         {
-          pair.nodes[pair.n_nodes]     = masters[partner.face][k];
+          pair.nodes[pair.n_nodes]     = masters[partner.face].nodes[k];
           pair.weights[pair.n_nodes++] = -partner.projection.N[k];
         }
     if (levered)

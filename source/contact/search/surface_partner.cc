@@ -15,7 +15,7 @@ namespace akmon
   {
     unsigned int count = 0;
     for (unsigned int i = faces_at_begin[node_a]; i < faces_at_begin[node_a + 1]; ++i)
-      for (const unsigned int node : masters[faces_at[i]])
+      for (const unsigned int node : masters[faces_at[i]].nodes)
         count += node == node_b;
     return count;
   }
@@ -58,7 +58,7 @@ namespace akmon
                                 const Partner &partner,
                                 bool &on_rim) const
   {
-    const auto &face       = masters[partner.face];
+    const auto &face       = masters[partner.face].nodes;
     const auto &projection = partner.projection;
     const unsigned int a   = face[projection.where];
     const unsigned int b   = face[(projection.where + 1) % 4];
@@ -69,7 +69,7 @@ namespace akmon
     Tensor<1, 3> sum;
     for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
       {
-        const auto &neighbour = masters[faces_at[i]];
+        const auto &neighbour = masters[faces_at[i]].nodes;
         const auto corner = std::find(neighbour.begin(), neighbour.end(), a) - neighbour.begin();
         const unsigned int next = neighbour[(corner + 1) % 4], last = neighbour[(corner + 3) % 4];
         if (projection.feature == Projection::Feature::edge)
@@ -100,14 +100,14 @@ namespace akmon
     if (partner.gap >= 0. || projection.feature == Projection::Feature::face ||
         std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
       return false;
-    const auto &face      = masters[partner.face];
+    const auto &face      = masters[partner.face].nodes;
     const unsigned int a  = face[projection.where];
     const unsigned int b  = face[(projection.where + 1) % 4];
     const double at_least = clearly * projection.offset.norm();
     std::vector<Segment> around;
     for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
       {
-        const auto &nodes = masters[faces_at[i]];
+        const auto &nodes = masters[faces_at[i]].nodes;
         if (projection.feature == Projection::Feature::vertex ||
             std::find(nodes.begin(), nodes.end(), b) != nodes.end())
           around.push_back(segment(x, masters[faces_at[i]]));
@@ -142,7 +142,7 @@ namespace akmon
     bool on_rim;
     partner.normal = feature_normal(x, partner, on_rim);
     partner.gap    = partner.normal * partner.projection.offset;
-    if (partner.gap > search_radius || partner.gap < -deepest_part * fetched[partner.face].depth ||
+    if (partner.gap > search_radius || partner.gap < -deepest_part * masters[partner.face].depth ||
         is_beside(x, partner))
       return false;
     if (!on_rim)

@@ -210,9 +210,9 @@ namespace akmon
     std::vector<Tensor<1, 3>> normals; // by face
     for (const auto &message : fetched)
       {
-        FaceNodes face;
+        MasterFace face{{}, message.depth, message.stiffness};
         for (unsigned int k = 0; k < 4; ++k)
-          face[k] = nodes.number(message.nodes[k]);
+          face.nodes[k] = nodes.number(message.nodes[k]);
         const Segment corners = segment(x, face);
         boxes.push_back(box_around(corners, search_radius));
         normals.push_back(unit_normal(corners));
@@ -251,10 +251,11 @@ namespace akmon
         slaves[s].id     = nodes.id_of_local(slaves[s].node);
         slaves[s].number = nodes.number(slaves[s].id);
       }
-    nodes_of_slave_faces.resize(slave_faces.size());
-    for (const unsigned int f : slave_face_list)
+    nodes_of_slave_faces.resize(slave_face_list.size());
+    for (unsigned int i = 0; i < slave_face_list.size(); ++i)
       for (unsigned int k = 0; k < 4; ++k)
-        nodes_of_slave_faces[f][k] = nodes.number(nodes.id_of_local(slave_faces[f].nodes[k]));
+        nodes_of_slave_faces[i][k] = nodes.number(
+          nodes.id_of_local(slave_faces[slave_face_list[i]].nodes[k]));
   }
 
 
@@ -262,15 +263,15 @@ namespace akmon
   SurfaceSearch::collect_faces_at_nodes(const unsigned int n_nodes)
   {
     faces_at_begin.assign(n_nodes + 1, 0);
-    for (const FaceNodes &face : masters)
-      for (const unsigned int node : face)
+    for (const MasterFace &face : masters)
+      for (const unsigned int node : face.nodes)
         ++faces_at_begin[node + 1];
     for (unsigned int node = 0; node < n_nodes; ++node)
       faces_at_begin[node + 1] += faces_at_begin[node];
     faces_at.resize(faces_at_begin.back());
     std::vector<unsigned int> next(faces_at_begin.begin(), faces_at_begin.end() - 1);
     for (unsigned int f = 0; f < masters.size(); ++f)
-      for (const unsigned int node : masters[f])
+      for (const unsigned int node : masters[f].nodes)
         faces_at[next[node]++] = f;
   }
 
@@ -374,7 +375,7 @@ namespace akmon
     constexpr double same_way = 0.8; // cosine
 
     const double product = normal * outward;
-    const auto &nodes    = masters[face];
+    const auto &nodes    = masters[face].nodes;
     return (product <= 0. || product * product <= same_way * same_way * outward.norm_square()) &&
            std::find(nodes.begin(), nodes.end(), slaves[slave].number) == nodes.end();
   }

@@ -161,6 +161,12 @@ namespace akmon
 
     using FaceNodes = std::array<unsigned int, 4>; // contact numbers
 
+    struct MasterFace
+    {
+      FaceNodes nodes;
+      double depth, stiffness; ///< as in its message
+    };
+
     struct FaceMessage
     {
       dealii::types::global_cell_index id;
@@ -219,6 +225,11 @@ namespace akmon
     segment(const ContactNodes::Field &x, const FaceNodes &nodes)
     {
       return {{x[nodes[0]], x[nodes[1]], x[nodes[2]], x[nodes[3]]}};
+    }
+    static Segment
+    segment(const ContactNodes::Field &x, const MasterFace &face)
+    {
+      return segment(x, face.nodes);
     }
     template <typename Visit>
     void
@@ -331,9 +342,9 @@ namespace akmon
 
     std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list, candidates;
-    std::vector<FaceNodes> nodes_of_slave_faces;
-    std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
-    std::vector<Memory> memories;               ///< by slave
+    std::vector<FaceNodes> nodes_of_slave_faces; ///< in the order of slave_face_list
+    std::vector<dealii::Tensor<1, 3>> outwards;  ///< by slave: area vector of its faces
+    std::vector<Memory> memories;                ///< by slave
     std::vector<BodyPair> body_pairs;
     std::vector<PairAround> pairs_around; ///< by slave
     std::vector<unsigned int> pair_of_candidate;
@@ -345,7 +356,7 @@ namespace akmon
     std::vector<ValleyFace> valley;                         ///< of a slave
     std::vector<FaceMessage> fetched;                       ///< sorted by id
     std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
-    std::vector<FaceNodes> masters;                         ///< in the same order
+    std::vector<MasterFace> masters;                        ///< in the same order
     BoxGrid grid;                             ///< of the master faces, widened by the radius
     std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
@@ -358,7 +369,7 @@ namespace akmon
   void
   SurfaceSearch::visit_neighbours(const unsigned int face, const Visit &visit) const
   {
-    for (const unsigned int node : masters[face])
+    for (const unsigned int node : masters[face].nodes)
       for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
         if (faces_at[i] != face)
           visit(faces_at[i]);
