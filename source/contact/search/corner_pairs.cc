@@ -40,7 +40,7 @@ namespace akmon
     const auto foot   = x[slaves[slave].number] - partner.projection.offset;
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const unsigned int f = candidates[i];
+        const unsigned int f = candidates[i].face;
         if (f == partner.face || bound_of_distance(i) > furthest * reach)
           continue;
         const auto &others = masters[f].nodes;
@@ -121,10 +121,10 @@ namespace akmon
     const auto point         = x[slaves[slave].number];
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        if (bound_of_distance(i) > reach || !opposes(x, candidates[i], slave))
+        if (bound_of_distance(i) > reach || !opposes(x, candidates[i].face, slave))
           continue;
         Partner partner;
-        partner.face         = candidates[i];
+        partner.face         = candidates[i].face;
         const auto area      = area_vector(segment(x, masters[partner.face]));
         const auto is_turned = [&](const ContactPair &other) {
           return area * other.normal < turned * area.norm();

@@ -114,7 +114,7 @@ namespace akmon
         for (unsigned int lane = 0; lane < n_here; ++lane)
           {
             const auto &[node, candidate] = near[begin + lane];
-            corners.set(lane, segment(x, masters[candidates[candidate]]));
+            corners.set(lane, segment(x, masters[candidates[candidate].face]));
             const auto place = x[node];
             for (unsigned int d = 0; d < 3; ++d)
               places[d][lane] = place[d];
@@ -125,8 +125,8 @@ namespace akmon
         store(corners.boxes().bound_of_distance(points), distances);
         for (unsigned int lane = 0; lane < n_here; ++lane)
           {
-            const unsigned int i   = near[begin + lane].candidate;
-            candidates_clear_of[i] = body_pairs[pair_of_candidate[i]].travelled + distances[lane];
+            Candidate &candidate = candidates[near[begin + lane].candidate];
+            candidate.clear_of   = body_pairs[candidate.pair].travelled + distances[lane];
           }
       }
   }

@@ -38,7 +38,7 @@ namespace akmon
     unsigned int with_least = numbers::invalid_unsigned_int;
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const unsigned int f  = candidates[i];
+        const unsigned int f  = candidates[i].face;
         const double at_least = bound_of_distance(i);
         least_bounds[1]       = std::min(least_bounds[1], std::max(at_least, least_bounds[0]));
         if (at_least < least_bounds[0])
@@ -210,18 +210,24 @@ namespace akmon
     choose_looks(steps, least_reach);
     choose_near_candidates();
     bound_distances(x);
+    looks.erase(std::remove_if(looks.begin(),
+                               looks.end(),
+                               [&](const Look &look) { return is_still_outside(look); }),
+                looks.end());
+    for (const Look &look : looks)
+      outwards[look.slave] = slave_normal(x, look.slave);
     for (const auto &[slave, reach] : looks)
-      if (!is_still_outside(slave, reach))
-        find_pairs_of(x, slave, reach, pairs);
+      find_pairs_of(x, slave, reach, pairs);
   }
 
 
   // Whether a slave that was further outside than the step may lead is so again, by the boxes
   // around the faces alone: no face can have passed it since.
   bool
-  SurfaceSearch::is_still_outside(const unsigned int slave, const double reach)
+  SurfaceSearch::is_still_outside(const Look &look)
   {
-    Memory &memory = memories[slave];
+    const auto &[slave, reach] = look;
+    Memory &memory             = memories[slave];
     if (!memory.was_outside || memory.clear_of <= 0.)
       return false;
     double least = std::numeric_limits<double>::max();
@@ -242,7 +248,6 @@ namespace akmon
   {
     Memory &memory     = memories[slave];
     memory.was_outside = false;
-    outwards[slave]    = slave_normal(x, slave);
     Partner partner;
     if (!closest_face(x, slave, furthest * reach, partner))
       {

@@ -232,11 +232,10 @@ namespace akmon
           if (may_face(f, normals[f], s, outward) &&
               !(fetched[f].body == discretization.body_of_node[slave.node] &&
                 is_in_front_of(x, point, f)))
-            candidates.push_back(f);
+            candidates.push_back({f, 0, 0.});
         });
       }
     slaves.back().first_candidate = candidates.size();
-    candidates_clear_of.assign(candidates.size(), 0.);
     collect_body_pairs();
     find_last_faces();
     built_radius = search_radius;
@@ -336,7 +335,6 @@ namespace akmon
   {
     body_pairs.clear();
     pairs_around.clear();
-    pair_of_candidate.clear();
     std::vector<std::vector<unsigned int>> known(discretization.get_bodies().size());
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
@@ -344,8 +342,8 @@ namespace akmon
         const unsigned int body = discretization.body_of_node[slaves[s].node];
         for (unsigned int i = slaves[s].first_candidate; i < slaves[s + 1].first_candidate; ++i)
           {
-            const unsigned int pair = number_of_pair(body, fetched[candidates[i]].body, known);
-            pair_of_candidate.push_back(pair);
+            const unsigned int pair = number_of_pair(body, fetched[candidates[i].face].body, known);
+            candidates[i].pair      = pair;
             if (std::none_of(pairs_around.begin() + first,
                              pairs_around.end(),
                              [&](const PairAround &around) { return around.pair == pair; }))

@@ -140,6 +140,13 @@ namespace akmon
       double travelled = 0.; ///< the same since the last build; length
     };
 
+    // A face that a slave may meet.
+    struct Candidate
+    {
+      unsigned int face, pair; ///< in masters; of their bodies
+      double clear_of;         ///< no closer, plus what that pair has travelled; length
+    };
+
     // A pair of bodies that a slave has candidates in.
     struct PairAround
     {
@@ -253,7 +260,7 @@ namespace akmon
     void
     choose_looks(const double steps, const double least_reach);
     bool
-    is_still_outside(const unsigned int slave, const double reach);
+    is_still_outside(const Look &look);
     void
     find_pairs_of(const ContactNodes::Field &x,
                   const unsigned int slave,
@@ -264,7 +271,7 @@ namespace akmon
     double
     bound_of_distance(const unsigned int candidate) const
     {
-      return candidates_clear_of[candidate] - body_pairs[pair_of_candidate[candidate]].travelled;
+      return candidates[candidate].clear_of - body_pairs[candidates[candidate].pair].travelled;
     }
     void
     choose_near_candidates();
@@ -341,17 +348,16 @@ namespace akmon
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
 
     std::vector<Slave> slaves; ///< and one past the end
-    std::vector<unsigned int> slave_face_list, candidates;
+    std::vector<unsigned int> slave_face_list;
+    std::vector<Candidate> candidates;
     std::vector<FaceNodes> nodes_of_slave_faces; ///< in the order of slave_face_list
     std::vector<dealii::Tensor<1, 3>> outwards;  ///< by slave: area vector of its faces
     std::vector<Memory> memories;                ///< by slave
     std::vector<BodyPair> body_pairs;
     std::vector<PairAround> pairs_around; ///< by slave
-    std::vector<unsigned int> pair_of_candidate;
-    std::vector<double> candidates_clear_of; ///< no closer, plus what their pairs have travelled
-    std::vector<Motion> motions_around;      ///< by slave, in this step
-    std::vector<Look> looks;                 ///< in this search
-    std::vector<Near> near;                  ///< in this search, the first n_near ones
+    std::vector<Motion> motions_around;   ///< by slave, in this step
+    std::vector<Look> looks;              ///< in this search
+    std::vector<Near> near;               ///< in this search, the first n_near ones
     unsigned int n_near = 0;
     std::vector<ValleyFace> valley;                         ///< of a slave
     std::vector<FaceMessage> fetched;                       ///< sorted by id
