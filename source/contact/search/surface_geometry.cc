@@ -63,18 +63,22 @@ namespace akmon
   bool
   SurfaceSearch::is_in_front_of(const ContactNodes::Field &x,
                                 const Tensor<1, 3> &point,
-                                const unsigned int face) const
+                                const unsigned int face,
+                                const Tensor<1, 3> &normal) const
   {
     constexpr double part = 0.25, beside = 0.5;
 
-    std::array<FaceBox<double>::Vector, 4> corners;
+    const Segment corners = segment(x, masters[face]);
+    const auto middle     = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    if (normal * (middle - point) <= part * masters[face].depth)
+      return false;
+    std::array<FaceBox<double>::Vector, 4> components_of_corners;
     for (unsigned int k = 0; k < 4; ++k)
-      corners[k] = components(x[masters[face].nodes[k]]);
-    const FaceBox<double> box(corners);
-    const auto from_middle = FaceBox<double>::difference(components(point), box.middle);
-    return FaceBox<double>::dot(box.edges[2], from_middle) < -part * masters[face].depth &&
-           std::hypot(box.beyond(from_middle, 0), box.beyond(from_middle, 1)) <=
-             beside * std::sqrt(box.area);
+      components_of_corners[k] = components(corners[k]);
+    const FaceBox<double> box(components_of_corners);
+    const auto from_middle = components(point - middle);
+    return std::hypot(box.beyond(from_middle, 0), box.beyond(from_middle, 1)) <=
+           beside * std::sqrt(box.area);
   }
 
 

@@ -231,7 +231,7 @@ namespace akmon
         grid.visit_holding(point, [&](const unsigned int f) {
           if (may_face(f, normals[f], s, outward) &&
               !(fetched[f].body == discretization.body_of_node[slave.node] &&
-                is_in_front_of(x, point, f)))
+                is_in_front_of(x, point, f, normals[f])))
             candidates.push_back({f, 0, 0.});
         });
       }

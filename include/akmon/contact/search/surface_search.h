@@ -290,7 +290,8 @@ namespace akmon
     bool
     is_in_front_of(const ContactNodes::Field &x,
                    const dealii::Tensor<1, 3> &point,
-                   const unsigned int face) const;
+                   const unsigned int face,
+                   const dealii::Tensor<1, 3> &normal) const;
     bool
     looks_at(const unsigned int slave, const dealii::Tensor<1, 3> &area) const;
     bool
