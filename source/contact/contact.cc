@@ -112,7 +112,7 @@ namespace akmon
     const WorkTime timing(seconds_of_work);
     for (unsigned int i = 0; i < searches.size(); ++i)
       {
-        searches[i].find_pairs(state.x, x, motions, steps, least_reach, pairs);
+        searches[i].find_pairs(x, motions, steps, least_reach, pairs);
         const unsigned int interface = searches[i].get_interface();
         const bool last = i + 1 == searches.size() || searches[i + 1].get_interface() != interface;
         if (last && !edge_searches.empty())
@@ -200,7 +200,7 @@ namespace akmon
       {
         if (!prepared)
           search.forget_distances();
-        search.build_candidates(nodes, state.x, x, moved);
+        search.build_candidates(nodes, x, moved);
         search.collect_neighbours(neighbours);
       }
     motions.set_neighbours(neighbours);

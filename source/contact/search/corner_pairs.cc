@@ -1,6 +1,7 @@
 #include <akmon/contact/search/surface_search.h>
 
 #include <algorithm>
+#include <tuple>
 
 // Further partners of a slave: where the master surface is concave one face is not enough.
 
@@ -13,16 +14,51 @@ namespace akmon
     constexpr double in_front = -1e-6; // of the cell size, for rounding: else there is no corner
 
 
-    // Pairs of one slave stand together, from the first one on.
+    // The last pair is of the same slave as the first one: such pairs stand together.
     void
-    add_to_corner(const std::size_t first, ContactPair pair, std::vector<ContactPair> &pairs)
+    share_corner(const std::size_t first, std::vector<ContactPair> &pairs)
     {
-      pair.slot          = pairs.size() - first;
-      pair.shares_corner = true;
-      pairs.push_back(pair);
+      pairs.back().slot          = pairs.size() - 1 - first;
+      pairs.back().shares_corner = true;
       pairs[first].shares_corner = true;
     }
   } // namespace
+
+
+  // The faces beside a slave's partner, with the normal at its foot, that rise from it and are
+  // within reach: candidates all. In the order of the first nodes they share, for the order of the
+  // pairs.
+  void
+  SurfaceSearch::find_valley(const ContactNodes::Field &x,
+                             const unsigned int slave,
+                             const double reach,
+                             const Partner &partner,
+                             const Tensor<1, 3> &normal)
+  {
+    valley.clear();
+    const auto &nodes = masters[partner.face].nodes;
+    const auto foot   = x[slaves[slave].number] - partner.projection.offset;
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+      {
+        const unsigned int f = candidates[i].face;
+        if (f == partner.face || bound_of_distance(i) > furthest * reach)
+          continue;
+        const auto &others = masters[f].nodes;
+        const auto shared  = std::find_first_of(nodes.begin(),
+                                               nodes.end(),
+                                               others.begin(),
+                                               others.end());
+        if (shared != nodes.end() && rises_from(segment(x, others), foot, normal) &&
+            opposes(x, f, slave))
+          valley.push_back({static_cast<unsigned int>(shared - nodes.begin()), f});
+      }
+    std::sort(valley.begin(), valley.end(), [](const auto &a, const auto &b) {
+      return std::tie(a.shared, a.number) < std::tie(b.shared, b.number);
+    });
+    // What rises from the face at 30 degrees is half as far as the edge.
+    if (!valley.empty() && distance_to_border(foot, segment(x, nodes)) > 2.1 * reach)
+      valley.clear();
+  }
 
 
   // The neighbours across the edges of a valley that the slave may cross in the step: it must stay
@@ -40,35 +76,32 @@ namespace akmon
     if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
       return;
     const std::size_t first  = pairs.size() - 1;
-    const unsigned int slave = pairs[first].row, first_face = partner.face;
-    const auto point  = x[slaves[slave].number];
-    const auto foot   = point - partner.projection.offset;
-    const auto normal = face_normal(x, partner);
-    // What rises from the face at 30 degrees is half as far as the edge.
-    if (distance_to_border(foot, segment(x, masters[first_face])) > 2.1 * reach)
-      return;
-    visit_neighbours(first_face, [&](const unsigned int f) {
-      const MasterFace &master = masters[f];
-      const FaceShape &shape   = shape_of(x, f);
-      if (!shape.rises_from(foot, normal) || shape.bound_of_distance(point) > furthest * reach ||
-          !opposes(master, shape, slave))
-        return;
-      Partner neighbour;
-      neighbour.face       = f;
-      neighbour.projection = project(point, segment(x, master));
-      neighbour.normal     = face_normal(x, neighbour);
-      neighbour.gap        = neighbour.normal * neighbour.projection.offset;
-      const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
-      if (neighbour.gap <= reach && neighbour.gap >= in_front * slaves[slave].size &&
-          beside.norm() <= part * reach)
-        add_to_corner(first, make_pair(x, slave, neighbour), pairs);
-    });
+    const unsigned int slave = pairs[first].row;
+    const auto normal        = face_normal(x, partner);
+    find_valley(x, slave, reach, partner, normal);
+    for (const ValleyFace &face : valley)
+      {
+        Partner neighbour;
+        neighbour.face       = face.number;
+        neighbour.projection = project(x[slaves[slave].number], segment(x, masters[face.number]));
+        neighbour.normal     = face_normal(x, neighbour);
+        neighbour.gap        = neighbour.normal * neighbour.projection.offset;
+        const auto beside    = neighbour.projection.offset - neighbour.gap * neighbour.normal;
+        if (neighbour.gap <= reach && neighbour.gap >= in_front * slaves[slave].size &&
+            beside.norm() <= part * reach)
+          {
+            add_pair(x, slave, neighbour, pairs);
+            share_corner(first, pairs);
+          }
+      }
     // The mean normal of an edge is none of its faces'.
     if (pairs[first].shares_corner && partner.projection.feature != Projection::Feature::face)
       {
-        partner.normal             = normal;
-        partner.gap                = normal * partner.projection.offset;
-        pairs[first]               = make_pair(x, slave, partner);
+        partner.normal = normal;
+        partner.gap    = normal * partner.projection.offset;
+        add_pair(x, slave, partner, pairs);
+        pairs[first] = pairs.back();
+        pairs.pop_back();
         pairs[first].shares_corner = true;
       }
   }
@@ -88,21 +121,24 @@ namespace akmon
     const auto point         = x[slaves[slave].number];
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
+        if (bound_of_distance(i) > reach || !opposes(x, candidates[i].face, slave))
+          continue;
         Partner partner;
-        partner.face         = candidates[i];
-        const auto &shape    = shape_of(x, partner.face);
+        partner.face         = candidates[i].face;
+        const auto area      = area_vector(segment(x, masters[partner.face]));
         const auto is_turned = [&](const ContactPair &other) {
-          return shape.normal * other.normal < turned * shape.area;
+          return area * other.normal < turned * area.norm();
         };
-        if (shape.bound_of_distance(point) > reach ||
-            !opposes(masters[partner.face], shape, slave) ||
-            !std::all_of(pairs.begin() + first, pairs.end(), is_turned))
+        if (!std::all_of(pairs.begin() + first, pairs.end(), is_turned))
           continue;
         partner.projection = project(point, segment(x, masters[partner.face]));
         if (partner.projection.feature == Projection::Feature::face &&
             partner.projection.offset.norm() <= reach && complete(x, slave, partner) &&
             partner.gap >= in_front * slaves[slave].size)
-          add_to_corner(first, make_pair(x, slave, partner), pairs);
+          {
+            add_pair(x, slave, partner, pairs);
+            share_corner(first, pairs);
+          }
       }
   }
 } // namespace akmon

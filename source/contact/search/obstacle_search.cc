@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace akmon
@@ -80,6 +81,9 @@ namespace akmon
     const auto stiffness = penalty_stiffness_of_nodes(discretization, faces);
     for (const auto &[node, size] : node_sizes(discretization, faces))
       slaves.push_back({node, size, stiffness.at(node)});
+    groups.resize((slaves.size() + n_in_group - 1) / n_in_group);
+    for (std::size_t i = 0; i < slaves.size(); ++i)
+      groups[i / n_in_group].size = std::max(groups[i / n_in_group].size, slaves[i].size);
   }
 
 
@@ -91,45 +95,67 @@ namespace akmon
                              const double travelled,
                              std::vector<ContactPair> &pairs)
   {
-    const auto &shape = *body.parameters().shape;
+    const auto within = [&](const double size) { return std::max(reach, always_near * size); };
     const Pose pose   = body.pose();
-    const auto R      = pose.orientation.matrix();
-    const auto centre = body.centre();
-    for (auto &slave : slaves)
+    const Place place{pose, pose.orientation.matrix(), body.centre(), first_rigid, travelled};
+    for (std::size_t g = 0; g < groups.size(); ++g)
       {
-        const double within = std::max(reach, always_near * slave.size);
-        if (slave.clear_of - travelled > within)
+        Group &group = groups[g];
+        if (group.clear_of - travelled > within(group.size))
           continue;
-        ContactPair pair;
-        pair.interface   = interface;
-        pair.slave       = slave.node;
-        pair.slave_id    = nodes.id_of_local(slave.node);
-        pair.nodes[0]    = nodes.number(pair.slave_id);
-        pair.weights[0]  = 1.;
-        pair.size        = slave.size;
-        pair.stiffness   = slave.stiffness;
-        pair.place       = x[pair.nodes[0]];
-        const auto place = transpose(R) * (pair.place - pose.place);
-        parts.clear();
-        shape.nearby(place, within, parts);
-        if (parts.empty())
+        group.clear_of = std::numeric_limits<double>::max();
+        for (std::size_t i = g * n_in_group; i < std::min(slaves.size(), (g + 1) * n_in_group); ++i)
           {
-            slave.clear_of = travelled + std::max(within, shape.closest(place).distance);
-            continue;
+            Slave &slave = slaves[i];
+            if (slave.clear_of - travelled <= within(slave.size))
+              find_pairs_of(place, within(slave.size), nodes, x, slave, pairs);
+            group.clear_of = std::min(group.clear_of, slave.clear_of);
           }
-        if (body.moves())
-          {
-            pair.add_node(first_rigid, -1.);
-            pair.add_rotation(first_rigid + 1, -1., pair.place - centre);
-          }
-        for (const auto &part : parts)
-          {
-            pair.slot   = &part - parts.data();
-            pair.gap    = part.distance;
-            pair.normal = R * part.normal;
-            set_plane(pair, pose, pair.place);
-            pairs.push_back(pair);
-          }
+      }
+  }
+
+
+  void
+  ObstacleSearch::find_pairs_of(const Place &place,
+                                const double within,
+                                const ContactNodes &nodes,
+                                const ContactNodes::Field &x,
+                                Slave &slave,
+                                std::vector<ContactPair> &pairs)
+  {
+    const auto &shape         = *body.parameters().shape;
+    const auto &R             = place.orientation;
+    const auto id             = nodes.id_of_local(slave.node);
+    const unsigned int number = nodes.number(id);
+    const auto in_frame       = transpose(R) * (x[number] - place.pose.place);
+    parts.clear();
+    shape.nearby(in_frame, within, parts);
+    if (parts.empty())
+      {
+        slave.clear_of = place.travelled + std::max(within, shape.closest(in_frame).distance);
+        return;
+      }
+    ContactPair pair;
+    pair.interface  = interface;
+    pair.slave      = slave.node;
+    pair.slave_id   = id;
+    pair.nodes[0]   = number;
+    pair.weights[0] = 1.;
+    pair.size       = slave.size;
+    pair.stiffness  = slave.stiffness;
+    pair.place      = x[number];
+    if (body.moves())
+      {
+        pair.add_node(place.first_rigid, -1.);
+        pair.add_rotation(place.first_rigid + 1, -1., pair.place - place.centre);
+      }
+    for (const auto &part : parts)
+      {
+        pair.slot   = &part - parts.data();
+        pair.gap    = part.distance;
+        pair.normal = R * part.normal;
+        set_plane(pair, place.pose, pair.place);
+        pairs.push_back(pair);
       }
   }
 } // namespace akmon

@@ -9,133 +9,49 @@ namespace akmon
 {
   using namespace dealii;
 
-  // Whether a face beside the one with the normal at the foot rises in front of it.
-  bool
-  SurfaceSearch::FaceShape::rises_from(const Tensor<1, 3> &foot, const Tensor<1, 3> &normal) const
-  {
-    constexpr double nearly_flat = 0.99875; // cosine of 0.05
-
-    return box[2] * normal <= nearly_flat && (middle - foot) * normal > 0.;
-  }
-
-
-  // Sum of the area vectors of the slave faces around a node.
-  Tensor<1, 3>
-  SurfaceSearch::slave_normal(const NodalVector &positions, const unsigned int slave) const
-  {
-    Tensor<1, 3> normal;
-    for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
-      {
-        const auto &face = slave_faces[slave_face_list[i]];
-        normal += area_vector(segment_of(face, positions));
-      }
-    return normal;
-  }
-
-
-  // The segment is in the convex hull of its corners, and that in the box.
-  SurfaceSearch::FaceShape::FaceShape(const Segment &corners)
-    : normal(area_vector(corners))
-    , middle(0.25 * (corners[0] + corners[1] + corners[2] + corners[3]))
-    , area(normal.norm())
-  {
-    constexpr double for_rounding = 1e-3;
-
-    const auto along = (corners[1] - corners[0]) + (corners[2] - corners[3]);
-    box[2]           = normal / area;
-    box[0]           = along - (along * box[2]) * box[2];
-    box[0] /= box[0].norm();
-    box[1]       = cross_product_3d(box[2], box[0]);
-    half_widths  = {};
-    double width = 0.;
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        for (const auto &corner : corners)
-          half_widths[d] = std::max(half_widths[d], std::abs((corner - middle) * box[d]));
-        width = std::max(width, half_widths[d]);
-      }
-    for (double &half_width : half_widths)
-      half_width += for_rounding * width;
-  }
-
-
-  // In the configuration of the search, measured for the first slave that needs it.
-  const SurfaceSearch::FaceShape &
-  SurfaceSearch::shape_of(const ContactNodes::Field &x, const unsigned int face)
-  {
-    FaceShape &shape = shapes[face];
-    if (shape.measured_in != n_searches)
-      {
-        shape             = FaceShape(segment(x, masters[face]));
-        shape.measured_in = n_searches;
-      }
-    return shape;
-  }
-
-
-  // Whether a face looks towards the slave's surface and is no part of it.
-  bool
-  SurfaceSearch::opposes(const MasterFace &face,
-                         const FaceShape &shape,
-                         const unsigned int slave) const
-  {
-    const auto &outward = outwards[slave];
-    return shape.box[2] * outward <= -opposed * outward.norm() &&
-           std::find(face.nodes.begin(), face.nodes.end(), slaves[slave].number) ==
-             face.nodes.end();
-  }
-
-
   // The closest candidate face that looks towards the slave's surface and is not part of it. The
   // partner of the last search tells how close it is at least, and often that no other face can
   // count; which of equally close faces is taken does not depend on it.
   bool
   SurfaceSearch::closest_face(const ContactNodes::Field &x,
                               const unsigned int slave,
-                              const double travelled,
                               const double reach,
                               Partner &partner)
   {
     constexpr double largest = std::numeric_limits<double>::max();
 
-    Memory &memory        = memories[slave];
-    const auto point      = x[slaves[slave].number];
-    const auto &outward   = outwards[slave];
-    const double least    = -opposed * outward.norm();
-    const auto looks_here = [&](const FaceShape &shape) { return shape.box[2] * outward <= least; };
+    Memory &memory   = memories[slave];
+    const auto point = x[slaves[slave].number];
     double best = largest, bound = largest;
-    if (memory.face != numbers::invalid_unsigned_int && looks_here(shape_of(x, memory.face)))
-      {
-        partner.face       = memory.face;
-        partner.projection = project(point, segment(x, masters[memory.face]));
-        bound              = partner.projection.offset.norm();
-        if (memory.others_clear_of - travelled > std::max(bound, reach))
-          return true;
-      }
+    if (memory.face != numbers::invalid_unsigned_int)
+      if (const auto corners = segment(x, masters[memory.face]);
+          looks_at(slave, area_vector(corners)))
+        {
+          partner.face       = memory.face;
+          partner.projection = project(point, corners);
+          bound              = partner.projection.offset.norm();
+          if (memory.others_clear_of > std::max(bound, reach))
+            return true;
+        }
     const Projection of_last = partner.projection;
     std::array<double, 2> least_bounds{{largest, largest}}; // of all faces
     unsigned int with_least = numbers::invalid_unsigned_int;
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
       {
-        const unsigned int f = candidates[i];
-        double at_least      = candidates_clear_of[i] - travelled;
-        const bool is_far = f != memory.face && at_least > std::max(reach, std::min(bound, best));
-        if (!is_far)
-          {
-            at_least               = shape_of(x, f).bound_of_distance(point);
-            candidates_clear_of[i] = travelled + at_least;
-          }
-        least_bounds[1] = std::min(least_bounds[1], std::max(at_least, least_bounds[0]));
+        const unsigned int f  = candidates[i].face;
+        const double at_least = bound_of_distance(i);
+        least_bounds[1]       = std::min(least_bounds[1], std::max(at_least, least_bounds[0]));
         if (at_least < least_bounds[0])
           {
             least_bounds[0] = at_least;
             with_least      = f;
           }
-        if (is_far || (f != memory.face && at_least > std::min(bound, best)) ||
-            !looks_here(shapes[f]))
+        if (f != memory.face && at_least > std::min(bound, best))
           continue;
-        const Projection projection = f == memory.face ? of_last :
-                                                         project(point, segment(x, masters[f]));
+        const auto corners = segment(x, masters[f]);
+        if (!looks_at(slave, area_vector(corners)))
+          continue;
+        const Projection projection = f == memory.face ? of_last : project(point, corners);
         if (const double distance = projection.offset.norm(); distance < best)
           {
             best               = distance;
@@ -144,7 +60,7 @@ namespace akmon
           }
       }
     const bool found       = best < largest;
-    memory.others_clear_of = travelled + least_bounds[found && partner.face == with_least ? 1 : 0];
+    memory.others_clear_of = least_bounds[found && partner.face == with_least ? 1 : 0];
     return found;
   }
 
@@ -189,9 +105,8 @@ namespace akmon
     double best             = partner.projection.offset.norm();
     visit_neighbours(left, [&](const unsigned int f) {
       const auto corners = segment(x, masters[f]);
-      const FaceShape shape(corners);
-      if (shape.bound_of_distance(point) > best || !opposes(masters[f], shape, slave) ||
-          (across_ridges_only && shape.rises_from(foot, normal)))
+      if (f == partner.face || !may_be_within(best, point, corners) || !opposes(x, f, slave) ||
+          (across_ridges_only && rises_from(corners, foot, normal)))
         return;
       const auto projection = project(point, corners);
       if (projection.offset.norm() < best)
@@ -204,27 +119,28 @@ namespace akmon
   }
 
 
-  ContactPair
-  SurfaceSearch::make_pair(const ContactNodes::Field &x,
-                           const unsigned int slave,
-                           const Partner &partner) const
+  void
+  SurfaceSearch::add_pair(const ContactNodes::Field &x,
+                          const unsigned int slave,
+                          const Partner &partner,
+                          std::vector<ContactPair> &pairs) const
   {
-    ContactPair pair;
-    pair.interface  = interface;
-    pair.reversed   = reversed;
-    pair.slave      = slaves[slave].node;
-    pair.slave_id   = slaves[slave].id;
-    pair.search     = number;
-    pair.row        = slave;
-    pair.face       = partner.face;
-    pair.foot       = {{partner.projection.xi, partner.projection.eta}};
-    pair.normal     = partner.normal;
-    pair.gap        = partner.gap;
-    pair.size       = slaves[slave].size;
-    pair.stiffness  = std::min(slaves[slave].stiffness, masters[partner.face].stiffness);
-    pair.nodes[0]   = slaves[slave].number;
-    pair.place      = x[slaves[slave].number];
-    pair.weights[0] = 1.;
+    ContactPair &pair = pairs.emplace_back();
+    pair.interface    = interface;
+    pair.reversed     = reversed;
+    pair.slave        = slaves[slave].node;
+    pair.slave_id     = slaves[slave].id;
+    pair.search       = number;
+    pair.row          = slave;
+    pair.face         = partner.face;
+    pair.foot         = {{partner.projection.xi, partner.projection.eta}};
+    pair.normal       = partner.normal;
+    pair.gap          = partner.gap;
+    pair.size         = slaves[slave].size;
+    pair.stiffness    = std::min(slaves[slave].stiffness, masters[partner.face].stiffness);
+    pair.nodes[0]     = slaves[slave].number;
+    pair.place        = x[slaves[slave].number];
+    pair.weights[0]   = 1.;
 
     // Forces along the offset make no couple.
     const auto &offset  = partner.projection.offset;
@@ -240,7 +156,6 @@ namespace akmon
         }
     if (levered)
       set_lever(segment(x, masters[partner.face]), 1, offset, pair);
-    return pair;
   }
 
 
@@ -248,73 +163,111 @@ namespace akmon
   void
   SurfaceSearch::advance(const BodyMotions &motions)
   {
-    for (Surroundings &around : surroundings)
+    for (BodyPair &pair : body_pairs)
       {
-        double approach  = 0.;
-        around.increment = 0.;
-        for (const unsigned int neighbour : around.neighbours)
-          {
-            const bool is_own = neighbour == around.body;
-            approach          = std::max(approach, motions.approach(around.body, neighbour));
-            around.increment  = std::max(around.increment,
-                                        is_own ? motions.within(neighbour) :
-                                                  std::max(motions.around(neighbour),
-                                                          motions.around(around.body)));
-          }
-        around.travelled += approach;
+        pair.approach  = motions.approach(pair.of_slaves, pair.of_faces);
+        pair.increment = pair.of_slaves == pair.of_faces ?
+                           motions.within(pair.of_faces) :
+                           std::max(motions.around(pair.of_faces), motions.around(pair.of_slaves));
+        pair.travelled += pair.approach;
+      }
+  }
+
+
+  // The slaves that may have come within their reach of a face.
+  void
+  SurfaceSearch::choose_looks(const double steps, const double least_reach)
+  {
+    motions_around.assign(slaves.size(), Motion());
+    for (const auto &[slave, pair] : pairs_around)
+      {
+        Motion &motion   = motions_around[slave];
+        motion.increment = std::max(motion.increment, body_pairs[pair].increment);
+        motion.approach  = std::max(motion.approach, body_pairs[pair].approach);
+      }
+    looks.clear();
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      {
+        const auto &[increment, approach] = motions_around[s];
+        memories[s].clear_of -= approach;
+        memories[s].others_clear_of -= approach;
+        const double reach = std::max(least_reach, steps * increment);
+        if (memories[s].clear_of <= reach &&
+            slaves[s].first_candidate < slaves[s + 1].first_candidate)
+          looks.push_back({s, reach});
       }
   }
 
 
   void
-  SurfaceSearch::find_pairs(const NodalVector &positions,
-                            const ContactNodes::Field &x,
+  SurfaceSearch::find_pairs(const ContactNodes::Field &x,
                             const BodyMotions &motions,
                             const double steps,
                             const double least_reach,
                             std::vector<ContactPair> &pairs)
   {
-    ++n_searches;
     advance(motions);
-    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
-      {
-        if (slaves[s].first_candidate == slaves[s + 1].first_candidate)
-          continue;
-        const Surroundings &around = surroundings[slaves[s].surroundings];
-        const double reach         = std::max(least_reach, steps * around.increment);
-        if (memories[s].clear_of - around.travelled > reach)
-          continue;
-        outwards[s] = slave_normal(positions, s);
-        find_pairs_of(x, s, around.travelled, reach, pairs);
-      }
+    choose_looks(steps, least_reach);
+    choose_near_candidates();
+    bound_distances(x);
+    looks.erase(std::remove_if(looks.begin(),
+                               looks.end(),
+                               [&](const Look &look) { return is_still_outside(look); }),
+                looks.end());
+    for (const Look &look : looks)
+      outwards[look.slave] = slave_normal(x, look.slave);
+    for (const auto &[slave, reach] : looks)
+      find_pairs_of(x, slave, reach, pairs);
+  }
+
+
+  // Whether a slave that was further outside than the step may lead is so again, by the boxes
+  // around the faces alone: no face can have passed it since.
+  bool
+  SurfaceSearch::is_still_outside(const Look &look)
+  {
+    const auto &[slave, reach] = look;
+    Memory &memory             = memories[slave];
+    if (!memory.was_outside || memory.clear_of <= 0.)
+      return false;
+    double least = std::numeric_limits<double>::max();
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+      least = std::min(least, bound_of_distance(i));
+    if (least <= reach)
+      return false;
+    memory.clear_of = memory.others_clear_of = least;
+    return true;
   }
 
 
   void
   SurfaceSearch::find_pairs_of(const ContactNodes::Field &x,
                                const unsigned int slave,
-                               const double travelled,
                                const double reach,
                                std::vector<ContactPair> &pairs)
   {
-    Memory &memory = memories[slave];
+    Memory &memory     = memories[slave];
+    memory.was_outside = false;
     Partner partner;
-    if (!closest_face(x, slave, travelled, furthest * reach, partner))
+    if (!closest_face(x, slave, furthest * reach, partner))
       {
         // Faces around a fold may turn towards the slave.
         memory.face     = numbers::invalid_unsigned_int;
-        memory.clear_of = travelled + reach + 0.1 * search_radius;
+        memory.clear_of = reach + 0.1 * search_radius;
         return;
       }
     memory.face           = partner.face;
     const double distance = partner.projection.offset.norm();
     // Whatever is inside stays under watch.
-    const bool outside = partner.projection.offset * shapes[partner.face].normal > 0.;
-    memory.clear_of    = outside ? travelled + distance : 0.;
-    if ((outside && distance > reach) || !complete(x, slave, partner))
+    const bool outside = partner.projection.offset *
+                           area_vector(segment(x, masters[partner.face])) >
+                         0.;
+    memory.clear_of    = outside ? distance : 0.;
+    memory.was_outside = outside && distance > reach;
+    if (memory.was_outside || !complete(x, slave, partner))
       return;
-    pairs.push_back(make_pair(x, slave, partner));
-    if (coupled && distance <= reach && memory.others_clear_of - travelled <= furthest * reach)
+    add_pair(x, slave, partner, pairs);
+    if (coupled && distance <= reach && memory.others_clear_of <= furthest * reach)
       {
         add_valley_pairs(x, reach, partner, pairs);
         add_corner_pairs(x, reach, pairs);

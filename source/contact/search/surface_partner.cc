@@ -58,10 +58,10 @@ namespace akmon
                                 const Partner &partner,
                                 bool &on_rim) const
   {
-    const auto &face       = masters[partner.face];
+    const auto &face       = masters[partner.face].nodes;
     const auto &projection = partner.projection;
-    const unsigned int a   = face.nodes[projection.where];
-    const unsigned int b   = face.nodes[(projection.where + 1) % 4];
+    const unsigned int a   = face[projection.where];
+    const unsigned int b   = face[(projection.where + 1) % 4];
     on_rim                 = false;
     if (projection.feature == Projection::Feature::face)
       return face_normal(x, partner);
@@ -69,11 +69,9 @@ namespace akmon
     Tensor<1, 3> sum;
     for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
       {
-        const auto &neighbour = masters[faces_at[i]];
-        const auto corner     = std::find(neighbour.nodes.begin(), neighbour.nodes.end(), a) -
-                            neighbour.nodes.begin();
-        const unsigned int next = neighbour.nodes[(corner + 1) % 4],
-                           last = neighbour.nodes[(corner + 3) % 4];
+        const auto &neighbour = masters[faces_at[i]].nodes;
+        const auto corner = std::find(neighbour.begin(), neighbour.end(), a) - neighbour.begin();
+        const unsigned int next = neighbour[(corner + 1) % 4], last = neighbour[(corner + 3) % 4];
         if (projection.feature == Projection::Feature::edge)
           {
             if (next != b && last != b)
@@ -102,9 +100,9 @@ namespace akmon
     if (partner.gap >= 0. || projection.feature == Projection::Feature::face ||
         std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
       return false;
-    const auto &face      = masters[partner.face];
-    const unsigned int a  = face.nodes[projection.where];
-    const unsigned int b  = face.nodes[(projection.where + 1) % 4];
+    const auto &face      = masters[partner.face].nodes;
+    const unsigned int a  = face[projection.where];
+    const unsigned int b  = face[(projection.where + 1) % 4];
     const double at_least = clearly * projection.offset.norm();
     std::vector<Segment> around;
     for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)

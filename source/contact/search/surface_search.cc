@@ -191,30 +191,34 @@ namespace akmon
     std::vector<ContactNodes::Id> needed;
     for (const auto &face : fetched)
       needed.insert(needed.end(), face.nodes.begin(), face.nodes.end());
+    for (const unsigned int f : slave_face_list)
+      for (const unsigned int node : slave_faces[f].nodes)
+        if (node >= discretization.n_owned_nodes)
+          needed.push_back(nodes.id_of_local(node));
     return needed;
   }
 
 
   void
   SurfaceSearch::build_candidates(const ContactNodes &nodes,
-                                  const NodalVector &positions,
                                   const ContactNodes::Field &x,
                                   const double moved)
   {
     settle_distances(moved);
     masters.clear();
-    std::vector<BoxGrid::Box> boxes; // by face
-    shapes.clear();
+    std::vector<BoxGrid::Box> boxes;   // by face
+    std::vector<Tensor<1, 3>> normals; // by face
     for (const auto &message : fetched)
       {
-        MasterFace face{message.body, message.depth, message.stiffness, {}};
+        MasterFace face{{}, message.depth, message.stiffness};
         for (unsigned int k = 0; k < 4; ++k)
           face.nodes[k] = nodes.number(message.nodes[k]);
-        boxes.push_back(box_around(segment(x, face), search_radius));
+        const Segment corners = segment(x, face);
+        boxes.push_back(box_around(corners, search_radius));
+        normals.push_back(unit_normal(corners));
         masters.push_back(face);
-        shapes.emplace_back(segment(x, face));
       }
-
+    number_slaves(nodes);
     collect_faces_at_nodes(nodes.size());
     grid.reinit(std::move(boxes));
     candidates.clear();
@@ -222,25 +226,35 @@ namespace akmon
       {
         Slave &slave          = slaves[s];
         slave.first_candidate = candidates.size();
-        slave.id              = nodes.id_of_local(slave.node);
-        slave.number          = nodes.number(slave.id);
-        const auto outward    = slave_normal(positions, s);
-        const auto is_none    = [&](const unsigned int f) {
-          return !may_face(masters[f], shapes[f], slave.number, outward) ||
-                 (masters[f].body == discretization.body_of_node[slave.node] &&
-                  shapes[f].is_in_front_of(x[slave.number], masters[f].depth));
-        };
-        grid.collect(x[slave.number], candidates);
-        candidates.erase(std::remove_if(candidates.begin() + slave.first_candidate,
-                                        candidates.end(),
-                                        is_none),
-                         candidates.end());
+        const auto outward    = slave_normal(x, s);
+        const auto point      = x[slave.number];
+        grid.visit_holding(point, [&](const unsigned int f) {
+          if (may_face(f, normals[f], s, outward) &&
+              !(fetched[f].body == discretization.body_of_node[slave.node] &&
+                is_in_front_of(x, point, f, normals[f])))
+            candidates.push_back({f, 0, 0.});
+        });
       }
     slaves.back().first_candidate = candidates.size();
-    candidates_clear_of.assign(candidates.size(), 0.);
-    collect_surroundings();
+    collect_body_pairs();
     find_last_faces();
     built_radius = search_radius;
+  }
+
+
+  void
+  SurfaceSearch::number_slaves(const ContactNodes &nodes)
+  {
+    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+      {
+        slaves[s].id     = nodes.id_of_local(slaves[s].node);
+        slaves[s].number = nodes.number(slaves[s].id);
+      }
+    nodes_of_slave_faces.resize(slave_face_list.size());
+    for (unsigned int i = 0; i < slave_face_list.size(); ++i)
+      for (unsigned int k = 0; k < 4; ++k)
+        nodes_of_slave_faces[i][k] = nodes.number(
+          nodes.id_of_local(slave_faces[slave_face_list[i]].nodes[k]));
   }
 
 
@@ -261,18 +275,13 @@ namespace akmon
   }
 
 
-  // To distances as they are now. What is known does not reach beyond the faces that have been
-  // candidates.
+  // What is known does not reach beyond the faces that have been candidates.
   void
   SurfaceSearch::settle_distances(const double moved)
   {
-    for (unsigned int s = 0; s < memories.size(); ++s)
-      for (double *const distance : {&memories[s].clear_of, &memories[s].others_clear_of})
-        {
-          if (!surroundings.empty())
-            *distance -= surroundings[slaves[s].surroundings].travelled;
-          *distance = std::min(*distance, built_radius - moved);
-        }
+    for (Memory &memory : memories)
+      for (double *const distance : {&memory.clear_of, &memory.others_clear_of})
+        *distance = std::min(*distance, built_radius - moved);
   }
 
 
@@ -299,32 +308,47 @@ namespace akmon
   {
     memories.assign(slaves.size(), Memory());
     candidates.clear();
-    surroundings.clear();
+    body_pairs.clear();
+    pairs_around.clear();
     for (Slave &slave : slaves)
-      slave.first_candidate = slave.surroundings = 0;
+      slave.first_candidate = 0;
+  }
+
+
+  // @param known  by the body of the slaves: numbers of its pairs
+  unsigned int
+  SurfaceSearch::number_of_pair(const unsigned int of_slaves,
+                                const unsigned int of_faces,
+                                std::vector<std::vector<unsigned int>> &known)
+  {
+    for (const unsigned int number : known[of_slaves])
+      if (body_pairs[number].of_faces == of_faces)
+        return number;
+    known[of_slaves].push_back(body_pairs.size());
+    body_pairs.push_back({of_slaves, of_faces});
+    return known[of_slaves].back();
   }
 
 
   void
-  SurfaceSearch::collect_surroundings()
+  SurfaceSearch::collect_body_pairs()
   {
-    surroundings.clear();
-    std::map<std::pair<unsigned int, std::vector<unsigned int>>, unsigned int> numbers;
-    std::vector<unsigned int> neighbours;
+    body_pairs.clear();
+    pairs_around.clear();
+    std::vector<std::vector<unsigned int>> known(discretization.get_bodies().size());
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       {
-        neighbours.clear();
+        const std::size_t first = pairs_around.size();
+        const unsigned int body = discretization.body_of_node[slaves[s].node];
         for (unsigned int i = slaves[s].first_candidate; i < slaves[s + 1].first_candidate; ++i)
-          if (const unsigned int body = masters[candidates[i]].body;
-              std::find(neighbours.begin(), neighbours.end(), body) == neighbours.end())
-            neighbours.push_back(body);
-        std::sort(neighbours.begin(), neighbours.end());
-        const unsigned int body    = discretization.body_of_node[slaves[s].node];
-        const auto [known, is_new] = numbers.try_emplace(std::make_pair(body, neighbours),
-                                                         surroundings.size());
-        if (is_new)
-          surroundings.push_back({body, neighbours});
-        slaves[s].surroundings = known->second;
+          {
+            const unsigned int pair = number_of_pair(body, fetched[candidates[i].face].body, known);
+            candidates[i].pair      = pair;
+            if (std::none_of(pairs_around.begin() + first,
+                             pairs_around.end(),
+                             [&](const PairAround &around) { return around.pair == pair; }))
+              pairs_around.push_back({s, pair});
+          }
       }
   }
 
@@ -332,22 +356,8 @@ namespace akmon
   void
   SurfaceSearch::collect_neighbours(std::vector<std::array<unsigned int, 2>> &bodies) const
   {
-    for (const Surroundings &around : surroundings)
-      for (const unsigned int neighbour : around.neighbours)
-        bodies.push_back({{around.body, neighbour}});
-  }
-
-
-  // Whether a node of a body is in the cell behind one of the body's own faces, or further back: a
-  // cell that is pressed flat must not be taken for a body in contact with itself.
-  bool
-  SurfaceSearch::FaceShape::is_in_front_of(const Tensor<1, 3> &point, const double depth) const
-  {
-    constexpr double part = 0.25, beside = 0.5;
-
-    return box[2] * (middle - point) > part * depth &&
-           std::hypot(beyond(point - middle, 0), beyond(point - middle, 1)) <=
-             beside * std::sqrt(area);
+    for (const BodyPair &pair : body_pairs)
+      bodies.push_back({{pair.of_slaves, pair.of_faces}});
   }
 
 
@@ -355,15 +365,16 @@ namespace akmon
   // in contact with itself most faces nearby are the slave's own neighbours: they look the same
   // way, and no motion within the radius turns them round.
   bool
-  SurfaceSearch::may_face(const MasterFace &face,
-                          const FaceShape &shape,
-                          const unsigned int slave_number,
-                          const Tensor<1, 3> &outward)
+  SurfaceSearch::may_face(const unsigned int face,
+                          const Tensor<1, 3> &normal,
+                          const unsigned int slave,
+                          const Tensor<1, 3> &outward) const
   {
     constexpr double same_way = 0.8; // cosine
 
-    const double product = shape.box[2] * outward;
+    const double product = normal * outward;
+    const auto &nodes    = masters[face].nodes;
     return (product <= 0. || product * product <= same_way * same_way * outward.norm_square()) &&
-           std::find(face.nodes.begin(), face.nodes.end(), slave_number) == face.nodes.end();
+           std::find(nodes.begin(), nodes.end(), slaves[slave].number) == nodes.end();
   }
 } // namespace akmon

@@ -25,8 +25,10 @@ namespace akmon
       bool
       holds(const dealii::Tensor<1, 3> &x) const
       {
-        return lower[0] <= x[0] && x[0] <= upper[0] && lower[1] <= x[1] && x[1] <= upper[1] &&
-               lower[2] <= x[2] && x[2] <= upper[2];
+        bool inside = true; // without branches, which nobody could foretell
+        for (unsigned int d = 0; d < 3; ++d)
+          inside = inside & (lower[d] <= x[d]) & (x[d] <= upper[d]);
+        return inside;
       }
     };
 
@@ -50,18 +52,28 @@ namespace akmon
         [&](const std::size_t bucket, const unsigned int box) { entries[next[bucket]++] = box; });
     }
 
+    /// visit(number) for the boxes that hold a point, in ascending order.
+    template <typename Visit>
+    void
+    visit_holding(const dealii::Tensor<1, 3> &x, const Visit &visit) const
+    {
+      const std::size_t bucket = bucket_of(cell_of(x));
+      unsigned int last        = -1;
+      for (unsigned int i = begins[bucket]; i < begins[bucket + 1]; ++i)
+        {
+          // Several cells of a box may fall into the same bucket, where they stand together.
+          const unsigned int box = entries[i];
+          if (box != last && boxes[box].holds(x))
+            visit(box);
+          last = box;
+        }
+    }
+
     /// Append the numbers of the boxes that hold a point to a list, in ascending order.
     void
     collect(const dealii::Tensor<1, 3> &x, std::vector<unsigned int> &numbers) const
     {
-      const std::size_t first  = numbers.size();
-      const std::size_t bucket = bucket_of(cell_of(x));
-      for (unsigned int i = begins[bucket]; i < begins[bucket + 1]; ++i)
-        if (boxes[entries[i]].holds(x))
-          numbers.push_back(entries[i]);
-      std::sort(numbers.begin() + first, numbers.end());
-      // Two cells of a box may fall into the same bucket.
-      numbers.erase(std::unique(numbers.begin() + first, numbers.end()), numbers.end());
+      visit_holding(x, [&](const unsigned int box) { numbers.push_back(box); });
     }
 
   private:

@@ -56,6 +56,25 @@ namespace akmon
   }
 
 
+  /// False only if a segment is further from a point than a distance, by the box around it along
+  /// the axes.
+  inline bool
+  may_be_within(const double distance, const dealii::Tensor<1, 3> &point, const Segment &corners)
+  {
+    constexpr double for_rounding = 1e-3;
+
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        const auto [lower, upper] = std::minmax(
+          {corners[0][d], corners[1][d], corners[2][d], corners[3][d]});
+        const double outside = std::max(lower - point[d], point[d] - upper);
+        if (outside > (1. + for_rounding) * distance + for_rounding * (upper - lower))
+          return false;
+      }
+    return true;
+  }
+
+
   /// Length of the longest diagonal of faces of all ranks (collective); zero if there are none.
   inline double
   largest_diagonal(const std::vector<BoundaryFace> &faces,

@@ -57,6 +57,8 @@ namespace akmon
     {
       for (auto &slave : slaves)
         slave.clear_of = 0.;
+      for (auto &group : groups)
+        group.clear_of = 0.;
     }
 
   private:
@@ -68,10 +70,38 @@ namespace akmon
       double clear_of = 0.; ///< nothing is closer than this minus what was travelled; length
     };
 
+    // Slaves that follow each other are near each other, mostly.
+    struct Group
+    {
+      double size     = 0.; ///< the largest of the slaves; length
+      double clear_of = 0.; ///< the least of the slaves; length
+    };
+
+    static constexpr std::size_t n_in_group = 8;
+
+    // The body in a step.
+    struct Place
+    {
+      Pose pose;
+      dealii::Tensor<2, 3> orientation;
+      dealii::Tensor<1, 3> centre; ///< length
+      unsigned int first_rigid;
+      double travelled; ///< length
+    };
+
+    void
+    find_pairs_of(const Place &place,
+                  const double within,
+                  const ContactNodes &nodes,
+                  const ContactNodes::Field &x,
+                  Slave &slave,
+                  std::vector<ContactPair> &pairs);
+
     const RigidBody &body;
     const unsigned int interface;
     std::vector<BoundaryFace> faces;
     std::vector<Slave> slaves;
+    std::vector<Group> groups; ///< n_in_group slaves each, the last one fewer
     std::vector<SurfacePoint> parts;
   };
 

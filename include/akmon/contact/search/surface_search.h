@@ -70,10 +70,7 @@ namespace akmon
      *   as what has been found out about distances still holds; length
      */
     void
-    build_candidates(const ContactNodes &nodes,
-                     const NodalVector &positions,
-                     const ContactNodes::Field &x,
-                     const double moved);
+    build_candidates(const ContactNodes &nodes, const ContactNodes::Field &x, const double moved);
 
     /// Append the bodies of slaves and of their candidates.
     void
@@ -87,11 +84,9 @@ namespace akmon
      * Append the pairs of this rank's slaves in configuration @p x, in the order of global node
      * numbers: those that are inside, and those that are no further outside than the step may lead,
      * `steps` times what bodies nearby move in it and `least_reach` (length) at least.
-     * @param positions  the same configuration as a nodal vector
      */
     void
-    find_pairs(const NodalVector &positions,
-               const ContactNodes::Field &x,
+    find_pairs(const ContactNodes::Field &x,
                const BodyMotions &motions,
                const double steps,
                const double least_reach,
@@ -134,16 +129,49 @@ namespace akmon
       double stiffness;             ///< mean of its faces' K A^2/V; force/length
       unsigned int first_face;      ///< in slave_face_list
       unsigned int first_candidate; ///< in candidates
-      unsigned int surroundings;    ///< number of them
     };
 
-    // What slaves of a body have around them that have candidates of the same bodies.
-    struct Surroundings
+    // A body with slaves and one that has candidates of theirs, or twice the same.
+    struct BodyPair
     {
-      unsigned int body;
-      std::vector<unsigned int> neighbours; ///< bodies, sorted
-      double increment = 0.;                ///< the largest of a node in this step; length
-      double travelled = 0.; ///< how far all may have come closer since the last build; length
+      unsigned int of_slaves, of_faces;
+      double increment = 0.; ///< the largest of a node in this step; length
+      double approach  = 0.; ///< by how much they come closer in this step at most; length
+      double travelled = 0.; ///< the same since the last build; length
+    };
+
+    // A face that a slave may meet.
+    struct Candidate
+    {
+      unsigned int face, pair; ///< in masters; of their bodies
+      double clear_of;         ///< no closer, plus what that pair has travelled; length
+    };
+
+    // A pair of bodies that a slave has candidates in.
+    struct PairAround
+    {
+      unsigned int slave, pair;
+    };
+
+    // What a slave has around it: the largest of its pairs of bodies; length.
+    struct Motion
+    {
+      double increment = 0., approach = 0.;
+    };
+
+    // A slave that may be within its reach of a face.
+    struct Look
+    {
+      unsigned int slave;
+      double reach; ///< length
+    };
+
+    using FaceNodes = std::array<unsigned int, 4>; // contact numbers
+
+    struct MasterFace
+    {
+      FaceNodes nodes;
+      double depth, stiffness; ///< as in its message
     };
 
     struct FaceMessage
@@ -162,59 +190,30 @@ namespace akmon
       }
     };
 
-    struct MasterFace
-    {
-      unsigned int body;
-      double depth, stiffness;
-      std::array<unsigned int, 4> nodes; ///< contact numbers
-    };
-
-    // A master face in the current configuration and a box around it.
-    struct FaceShape
-    {
-      dealii::Tensor<1, 3> normal, middle;     ///< area vector; length^2, length
-      double area;                             ///< length^2
-      std::array<dealii::Tensor<1, 3>, 3> box; ///< unit vectors along its edges, the last is normal
-      std::array<double, 3> half_widths;       ///< of the box around the middle; length
-      unsigned int measured_in = 0;            ///< the number of the search
-
-      explicit FaceShape(const Segment &corners);
-
-      // How far the box ends before a point in one of its directions.
-      double
-      beyond(const dealii::Tensor<1, 3> &from_middle, const unsigned int d) const
-      {
-        return std::max(0., std::abs(box[d] * from_middle) - half_widths[d]);
-      }
-
-      // No point of the face is closer to a point.
-      double
-      bound_of_distance(const dealii::Tensor<1, 3> &point) const
-      {
-        const auto from_middle = point - middle;
-        const double a = beyond(from_middle, 0), b = beyond(from_middle, 1),
-                     c = beyond(from_middle, 2);
-        return std::sqrt(a * a + b * b + c * c);
-      }
-
-      bool
-      rises_from(const dealii::Tensor<1, 3> &foot, const dealii::Tensor<1, 3> &normal) const;
-
-      bool
-      is_in_front_of(const dealii::Tensor<1, 3> &point, const double depth) const;
-    };
-
     static constexpr double
       furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
 
-    // What earlier searches have found out about a slave. Distances are less what is travelled in
-    // its surroundings.
+    // A candidate that may be within the reach of a slave.
+    struct Near
+    {
+      unsigned int node, candidate; ///< contact number; in candidates
+    };
+
+    // A face beside a slave's partner that rises from it.
+    struct ValleyFace
+    {
+      unsigned int shared, number; ///< the first node they share, in the partner; in masters
+    };
+
+    // What earlier searches have found out about a slave, less what its surroundings may have come
+    // closer since.
     struct Memory
     {
       unsigned int face      = dealii::numbers::invalid_unsigned_int; ///< the last partner's
-      double clear_of        = 0.;                                    ///< no face is closer; length
-      double others_clear_of = 0.; ///< no other face is closer; length
+      bool was_outside       = false; ///< of that face, and further than the reach
+      double clear_of        = 0.;    ///< no face is closer; length
+      double others_clear_of = 0.;    ///< no other face is closer; length
     };
 
     struct Partner
@@ -230,46 +229,77 @@ namespace akmon
     RankRegions
     regions_of_slaves(const NodalVector &x) const;
     static Segment
+    segment(const ContactNodes::Field &x, const FaceNodes &nodes)
+    {
+      return {{x[nodes[0]], x[nodes[1]], x[nodes[2]], x[nodes[3]]}};
+    }
+    static Segment
     segment(const ContactNodes::Field &x, const MasterFace &face)
     {
-      return {{x[face.nodes[0]], x[face.nodes[1]], x[face.nodes[2]], x[face.nodes[3]]}};
+      return segment(x, face.nodes);
     }
     template <typename Visit>
     void
     visit_neighbours(const unsigned int face, const Visit &visit) const;
+    void
+    number_slaves(const ContactNodes &nodes);
     void
     collect_faces_at_nodes(const unsigned int n_nodes);
     void
     settle_distances(const double moved);
     void
     find_last_faces();
+    unsigned int
+    number_of_pair(const unsigned int of_slaves,
+                   const unsigned int of_faces,
+                   std::vector<std::vector<unsigned int>> &known);
     void
-    collect_surroundings();
+    collect_body_pairs();
     void
     advance(const BodyMotions &motions);
     void
+    choose_looks(const double steps, const double least_reach);
+    bool
+    is_still_outside(const Look &look);
+    void
     find_pairs_of(const ContactNodes::Field &x,
                   const unsigned int slave,
-                  const double travelled,
                   const double reach,
                   std::vector<ContactPair> &pairs);
     dealii::Tensor<1, 3>
-    slave_normal(const NodalVector &positions, const unsigned int slave) const;
-    const FaceShape &
-    shape_of(const ContactNodes::Field &x, const unsigned int face);
+    slave_normal(const ContactNodes::Field &x, const unsigned int slave) const;
+    double
+    bound_of_distance(const unsigned int candidate) const
+    {
+      return candidates[candidate].clear_of - body_pairs[candidates[candidate].pair].travelled;
+    }
+    void
+    choose_near_candidates();
+    void
+    bound_distances(const ContactNodes::Field &x);
     bool
     closest_face(const ContactNodes::Field &x,
                  const unsigned int slave,
-                 const double travelled,
                  const double reach,
                  Partner &partner);
-    static bool
-    may_face(const MasterFace &face,
-             const FaceShape &shape,
-             const unsigned int slave_number,
-             const dealii::Tensor<1, 3> &outward);
     bool
-    opposes(const MasterFace &face, const FaceShape &shape, const unsigned int slave) const;
+    may_face(const unsigned int face,
+             const dealii::Tensor<1, 3> &normal,
+             const unsigned int slave,
+             const dealii::Tensor<1, 3> &outward) const;
+    bool
+    is_in_front_of(const ContactNodes::Field &x,
+                   const dealii::Tensor<1, 3> &point,
+                   const unsigned int face,
+                   const dealii::Tensor<1, 3> &normal) const;
+    bool
+    looks_at(const unsigned int slave, const dealii::Tensor<1, 3> &area) const;
+    bool
+    opposes(const ContactNodes::Field &x, const unsigned int face, const unsigned int slave) const;
+    static bool
+    rises_from(const Segment &corners,
+               const dealii::Tensor<1, 3> &foot,
+               const dealii::Tensor<1, 3> &normal);
     void
     slide_to_neighbour(const ContactNodes::Field &x,
                        const unsigned int slave,
@@ -281,8 +311,17 @@ namespace akmon
     is_beside(const ContactNodes::Field &x, const Partner &partner) const;
     bool
     complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
-    ContactPair
-    make_pair(const ContactNodes::Field &x, const unsigned int slave, const Partner &partner) const;
+    void
+    add_pair(const ContactNodes::Field &x,
+             const unsigned int slave,
+             const Partner &partner,
+             std::vector<ContactPair> &pairs) const;
+    void
+    find_valley(const ContactNodes::Field &x,
+                const unsigned int slave,
+                const double reach,
+                const Partner &partner,
+                const dealii::Tensor<1, 3> &normal);
     void
     add_valley_pairs(const ContactNodes::Field &x,
                      const double reach,
@@ -310,35 +349,36 @@ namespace akmon
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
 
     std::vector<Slave> slaves; ///< and one past the end
-    std::vector<unsigned int> slave_face_list, candidates;
-    std::vector<dealii::Tensor<1, 3>> outwards; ///< by slave: area vector of its faces
-    std::vector<Memory> memories;               ///< by slave
-    std::vector<double> candidates_clear_of;    ///< as in the memories
-    std::vector<Surroundings> surroundings;
+    std::vector<unsigned int> slave_face_list;
+    std::vector<Candidate> candidates;
+    std::vector<FaceNodes> nodes_of_slave_faces; ///< in the order of slave_face_list
+    std::vector<dealii::Tensor<1, 3>> outwards;  ///< by slave: area vector of its faces
+    std::vector<Memory> memories;                ///< by slave
+    std::vector<BodyPair> body_pairs;
+    std::vector<PairAround> pairs_around; ///< by slave
+    std::vector<Motion> motions_around;   ///< by slave, in this step
+    std::vector<Look> looks;              ///< in this search
+    std::vector<Near> near;               ///< in this search, the first n_near ones
+    unsigned int n_near = 0;
+    std::vector<ValleyFace> valley;                         ///< of a slave
     std::vector<FaceMessage> fetched;                       ///< sorted by id
     std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
     std::vector<MasterFace> masters;                        ///< in the same order
-    std::vector<FaceShape> shapes; ///< of the candidate faces, in the same numbers
-    unsigned int n_searches = 0;
     BoxGrid grid;                             ///< of the master faces, widened by the radius
     std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
   };
 
 
-  // visit(f) for every face that shares a node with a face, once: at the first of these nodes.
+  // visit(f) for every face that shares a node with a face: at the first of these nodes, and
+  // perhaps at others again.
   template <typename Visit>
   void
   SurfaceSearch::visit_neighbours(const unsigned int face, const Visit &visit) const
   {
-    const auto &nodes = masters[face].nodes;
-    for (auto node = nodes.begin(); node != nodes.end(); ++node)
-      for (unsigned int i = faces_at_begin[*node]; i < faces_at_begin[*node + 1]; ++i)
-        {
-          const auto &others = masters[faces_at[i]].nodes;
-          if (faces_at[i] != face &&
-              std::find_first_of(nodes.begin(), node, others.begin(), others.end()) == node)
-            visit(faces_at[i]);
-        }
+    for (const unsigned int node : masters[face].nodes)
+      for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
+        if (faces_at[i] != face)
+          visit(faces_at[i]);
   }
 } // namespace akmon

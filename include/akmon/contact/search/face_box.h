@@ -1,0 +1,104 @@
+#pragma once
+
+#include <akmon/simd.h>
+
+#include <array>
+
+namespace akmon
+{
+  /**
+   * A box around a segment, along its edges and its normal.
+   * @tparam N  double, or Lanes: of several segments side by side
+   */
+  template <typename N>
+  struct FaceBox
+  {
+    using Vector = std::array<N, 3>;
+
+    Vector middle;                 ///< mean of the corners; length
+    N area;                        ///< of the area vector; length^2
+    std::array<Vector, 3> edges;   ///< unit vectors, the last is the segment's normal
+    std::array<N, 3> half_lengths; ///< of the edges, around the middle; length
+
+    explicit FaceBox(const std::array<Vector, 4> &corners);
+
+    /// How far the box ends before a point in one of its directions.
+    N
+    beyond(const Vector &from_middle, const unsigned int d) const
+    {
+      return maximum(N(0.), magnitude(dot(edges[d], from_middle)) - half_lengths[d]);
+    }
+
+    /// No point of the segment is closer to a point.
+    N
+    bound_of_distance(const Vector &point) const
+    {
+      const Vector from_middle = difference(point, middle);
+      const Vector outside{
+        {beyond(from_middle, 0), beyond(from_middle, 1), beyond(from_middle, 2)}};
+      return square_root(dot(outside, outside));
+    }
+
+    static N
+    magnitude(const N &a)
+    {
+      return maximum(a, -a);
+    }
+
+    static N
+    dot(const Vector &a, const Vector &b)
+    {
+      return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+
+    static Vector
+    difference(const Vector &a, const Vector &b)
+    {
+      return {{a[0] - b[0], a[1] - b[1], a[2] - b[2]}};
+    }
+
+    static Vector
+    cross(const Vector &a, const Vector &b)
+    {
+      return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
+    }
+
+    static Vector
+    product(const N &factor, const Vector &a)
+    {
+      return {{factor * a[0], factor * a[1], factor * a[2]}};
+    }
+  };
+
+
+  // The segment is in the convex hull of its corners, and that in the box.
+  template <typename N>
+  FaceBox<N>::FaceBox(const std::array<Vector, 4> &corners)
+  {
+    constexpr double for_rounding = 1e-3;
+
+    const auto &[a, b, c, d] = corners;
+    const Vector diagonal = difference(c, a), other_diagonal = difference(d, b);
+    for (unsigned int i = 0; i < 3; ++i)
+      middle[i] = 0.25 * (a[i] + b[i] + c[i] + d[i]);
+    const Vector normal = product(0.5, cross(diagonal, other_diagonal));
+    area                = square_root(dot(normal, normal));
+    edges[2]            = product(1. / area, normal);
+    // Along the first edge and the opposite one: (b - a) + (c - d).
+    Vector along  = difference(diagonal, other_diagonal);
+    along         = difference(along, product(dot(along, edges[2]), edges[2]));
+    edges[0]      = product(1. / square_root(dot(along, along)), along);
+    edges[1]      = cross(edges[2], edges[0]);
+    N half_length = 0.;
+    for (unsigned int i = 0; i < 3; ++i)
+      {
+        half_lengths[i] = 0.;
+        for (const Vector &corner : corners)
+          half_lengths[i] = maximum(half_lengths[i],
+                                    magnitude(dot(edges[i], difference(corner, middle))));
+        half_length = maximum(half_length, half_lengths[i]);
+      }
+    for (N &length : half_lengths)
+      length = length + for_rounding * half_length;
+  }
+} // namespace akmon

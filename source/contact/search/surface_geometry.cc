@@ -1,0 +1,173 @@
+#include <akmon/contact/search/face_box.h>
+#include <akmon/contact/search/face_geometry.h>
+#include <akmon/contact/search/surface_search.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+// How far faces are from slaves at least, and which way they look.
+
+namespace akmon
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::array<double, 3>
+    components(const Tensor<1, 3> &vector)
+    {
+      return {{vector[0], vector[1], vector[2]}};
+    }
+
+
+    // Corners of as many segments as there are lanes.
+    struct LaneCorners
+    {
+      alignas(lane_alignment) double values[4][3][n_lanes] = {};
+
+      void
+      set(const unsigned int lane, const Segment &corners)
+      {
+        for (unsigned int k = 0; k < 4; ++k)
+          for (unsigned int d = 0; d < 3; ++d)
+            values[k][d][lane] = corners[k][d];
+      }
+
+      FaceBox<Lanes>
+      boxes() const
+      {
+        std::array<FaceBox<Lanes>::Vector, 4> corners;
+        for (unsigned int k = 0; k < 4; ++k)
+          for (unsigned int d = 0; d < 3; ++d)
+            load(values[k][d], corners[k][d]);
+        return FaceBox<Lanes>(corners);
+      }
+    };
+  } // namespace
+
+
+  // Sum of the area vectors of the slave faces around a node.
+  Tensor<1, 3>
+  SurfaceSearch::slave_normal(const ContactNodes::Field &x, const unsigned int slave) const
+  {
+    Tensor<1, 3> normal;
+    for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
+      normal += area_vector(segment(x, nodes_of_slave_faces[i]));
+    return normal;
+  }
+
+
+  // Whether a node of a body is in the cell behind one of the body's own faces, or further back: a
+  // cell that is pressed flat must not be taken for a body in contact with itself.
+  bool
+  SurfaceSearch::is_in_front_of(const ContactNodes::Field &x,
+                                const Tensor<1, 3> &point,
+                                const unsigned int face,
+                                const Tensor<1, 3> &normal) const
+  {
+    constexpr double part = 0.25, beside = 0.5;
+
+    const Segment corners = segment(x, masters[face]);
+    const auto middle     = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    if (normal * (middle - point) <= part * masters[face].depth)
+      return false;
+    std::array<FaceBox<double>::Vector, 4> components_of_corners;
+    for (unsigned int k = 0; k < 4; ++k)
+      components_of_corners[k] = components(corners[k]);
+    const FaceBox<double> box(components_of_corners);
+    const auto from_middle = components(point - middle);
+    return std::hypot(box.beyond(from_middle, 0), box.beyond(from_middle, 1)) <=
+           beside * std::sqrt(box.area);
+  }
+
+
+  // The candidates that may be within reach, of the slaves for which it matters.
+  void
+  SurfaceSearch::choose_near_candidates()
+  {
+    near.resize(candidates.size());
+    n_near = 0;
+    for (const auto &[slave, reach] : looks)
+      {
+        const Memory &memory   = memories[slave];
+        const double within    = furthest * reach;
+        const bool one_will_do = !memory.was_outside && memory.others_clear_of > within &&
+                                 memory.face != numbers::invalid_unsigned_int;
+        if (!one_will_do)
+          for (unsigned int i = slaves[slave].first_candidate;
+               i < slaves[slave + 1].first_candidate;
+               ++i)
+            {
+              near[n_near] = {slaves[slave].number, i};
+              n_near += bound_of_distance(i) <= within; // without a branch
+            }
+      }
+  }
+
+
+  // By the boxes around them.
+  void
+  SurfaceSearch::bound_distances(const ContactNodes::Field &x)
+  {
+    LaneCorners corners;
+    alignas(lane_alignment) double places[3][n_lanes] = {}, distances[n_lanes];
+    for (unsigned int begin = 0; begin < n_near; begin += n_lanes)
+      {
+        const unsigned int n_here = std::min(n_near - begin, n_lanes);
+        for (unsigned int lane = 0; lane < n_here; ++lane)
+          {
+            const auto &[node, candidate] = near[begin + lane];
+            corners.set(lane, segment(x, masters[candidates[candidate].face]));
+            const auto place = x[node];
+            for (unsigned int d = 0; d < 3; ++d)
+              places[d][lane] = place[d];
+          }
+        FaceBox<Lanes>::Vector points;
+        for (unsigned int d = 0; d < 3; ++d)
+          load(places[d], points[d]);
+        store(corners.boxes().bound_of_distance(points), distances);
+        for (unsigned int lane = 0; lane < n_here; ++lane)
+          {
+            Candidate &candidate = candidates[near[begin + lane].candidate];
+            candidate.clear_of   = body_pairs[candidate.pair].travelled + distances[lane];
+          }
+      }
+  }
+
+
+  // Whether a face with an area vector looks towards the slave's surface.
+  bool
+  SurfaceSearch::looks_at(const unsigned int slave, const Tensor<1, 3> &area) const
+  {
+    const auto &outward  = outwards[slave];
+    const double product = area * outward, area_2 = area.norm_square();
+    return area_2 > 0. && product <= 0. &&
+           product * product >= opposed * opposed * area_2 * outward.norm_square();
+  }
+
+
+  // Whether it is no part of that surface besides.
+  bool
+  SurfaceSearch::opposes(const ContactNodes::Field &x,
+                         const unsigned int face,
+                         const unsigned int slave) const
+  {
+    const auto &nodes = masters[face].nodes;
+    return looks_at(slave, area_vector(segment(x, nodes))) &&
+           std::find(nodes.begin(), nodes.end(), slaves[slave].number) == nodes.end();
+  }
+
+
+  // Whether a face rises in front of the one beside it with a normal at a foot.
+  bool
+  SurfaceSearch::rises_from(const Segment &corners,
+                            const Tensor<1, 3> &foot,
+                            const Tensor<1, 3> &normal)
+  {
+    constexpr double nearly_flat = 0.99875; // cosine of 0.05
+
+    const auto middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    return (middle - foot) * normal > 0. && unit_normal(corners) * normal <= nearly_flat;
+  }
+} // namespace akmon
