@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -129,6 +130,25 @@ namespace akmon::test
     std::vector<Vector> b;
     std::vector<Frame> frame;
   };
+
+  /// A with three rows for each pair.
+  inline Eigen::MatrixXd
+  matrix_of(const RandomContact &problem)
+  {
+    const unsigned int n = problem.b.size();
+    Eigen::MatrixXd A(3 * n, 3 * n);
+    std::vector<Vector> unit(n), image(n);
+    for (unsigned int column = 0; column < 3 * n; ++column)
+      {
+        unit[column / 3][column % 3] = 1.;
+        problem.apply(unit, image);
+        unit[column / 3][column % 3] = 0.;
+        for (unsigned int row = 0; row < 3 * n; ++row)
+          A(row, column) = image[row / 3][row % 3];
+      }
+    return A;
+  }
+
 
   /// Signorini's and Coulomb's conditions of a solution; lengths and forces are of the order of
   /// one.

@@ -16,24 +16,6 @@ namespace gauss_seidel_test
   using namespace akmon;
   using namespace akmon::test;
 
-  Eigen::MatrixXd
-  matrix_of(const RandomContact &problem)
-  {
-    const unsigned int n = problem.b.size();
-    Eigen::MatrixXd A(3 * n, 3 * n);
-    std::vector<Vector> unit(n), image(n);
-    for (unsigned int column = 0; column < 3 * n; ++column)
-      {
-        unit[column / 3][column % 3] = 1.;
-        problem.apply(unit, image);
-        unit[column / 3][column % 3] = 0.;
-        for (unsigned int row = 0; row < 3 * n; ++row)
-          A(row, column) = image[row / 3][row % 3];
-      }
-    return A;
-  }
-
-
   // Largest |t - P(t - w)|.
   double
   residual(const RandomContact &problem, const double mu, const std::vector<Vector> &t)

@@ -38,18 +38,9 @@ namespace newton_lanes_test
              tolerance,
              1000,
              false}
-      , A(3 * n, 3 * n)
+      , A(matrix_of(problem))
       , t(n)
     {
-      std::vector<Vector> unit(n), image(n);
-      for (unsigned int j = 0; j < 3 * n; ++j)
-        {
-          unit[j / 3][j % 3] = 1.;
-          problem.apply(unit, image);
-          unit[j / 3][j % 3] = 0.;
-          for (unsigned int i = 0; i < 3 * n; ++i)
-            A(i, j) = image[i / 3][i % 3];
-        }
     }
 
     NewtonLanes::Problem
