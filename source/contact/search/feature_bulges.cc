@@ -142,11 +142,8 @@ namespace akmon
   {
     const auto &face   = surface.get_faces()[f];
     const auto corners = surface.segment(x, f);
-    const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-    double wide        = 0.;
-    for (const auto &corner : corners)
-      wide = std::max(wide, (corner - middle).norm());
-    return line.distance(middle) <= wide + std::max(reach, deepest_part * face.depth) &&
+    return line.distance(middle_of(corners)) <=
+             half_width(corners) + std::max(reach, deepest_part * face.depth) &&
            line.may_touch(unit_normal(corners));
   }
 

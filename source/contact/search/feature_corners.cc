@@ -18,13 +18,6 @@ namespace akmon
 
     // Ids of features: behind all nodes' ids and those of touching rigid bodies.
     constexpr ContactNodes::Id first_feature_id = ContactNodes::Id(1) << 31;
-
-
-    Tensor<1, 3>
-    middle_of(const Segment &corners)
-    {
-      return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-    }
   } // namespace
 
 
@@ -120,14 +113,11 @@ namespace akmon
     double nearest = std::numeric_limits<double>::max();
     for (std::size_t i = begin; i < end; ++i)
       {
-        const unsigned int f   = faces_of_corners[i][1];
-        const auto &face       = surface.get_faces()[f];
-        const auto corners     = surface.segment(view.x, f);
-        const auto from_middle = p - middle_of(corners);
-        double wide            = 0.;
-        for (const auto &corner : corners)
-          wide = std::max(wide, (corner - middle_of(corners)).norm());
-        if (from_middle.norm() > wide + std::max(view.reach, deepest_part * face.depth))
+        const unsigned int f = faces_of_corners[i][1];
+        const auto &face     = surface.get_faces()[f];
+        const auto corners   = surface.segment(view.x, f);
+        if ((p - middle_of(corners)).norm() >
+            half_width(corners) + std::max(view.reach, deepest_part * face.depth))
           continue;
         Foot foot{f, project(p, corners), {}, 0.};
         const double distance = foot.projection.offset.norm();

@@ -170,11 +170,7 @@ namespace akmon
         const Line line = line_of(pose, i);
         visit(line.a, line.u, [&](const auto f) {
           const auto corners = surface.segment(x, f);
-          const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-          double wide        = 0.;
-          for (const auto &corner : corners)
-            wide = std::max(wide, (corner - middle).norm());
-          if (line.distance(middle) > wide + search_radius)
+          if (line.distance(middle_of(corners)) > half_width(corners) + search_radius)
             return;
           faces_of_edges.push_back({{i, f}});
           for (const unsigned int e : surface.get_faces()[f].edges)

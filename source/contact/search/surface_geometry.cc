@@ -69,7 +69,7 @@ namespace akmon
     constexpr double part = 0.25, beside = 0.5;
 
     const Segment corners = segment(x, masters[face]);
-    const auto middle     = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    const auto middle     = middle_of(corners);
     if (normal * (middle - point) <= part * masters[face].depth)
       return false;
     std::array<FaceBox<double>::Vector, 4> components_of_corners;
@@ -167,7 +167,7 @@ namespace akmon
   {
     constexpr double nearly_flat = 0.99875; // cosine of 0.05
 
-    const auto middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
-    return (middle - foot) * normal > 0. && unit_normal(corners) * normal <= nearly_flat;
+    return (middle_of(corners) - foot) * normal > 0. &&
+           unit_normal(corners) * normal <= nearly_flat;
   }
 } // namespace akmon

@@ -115,12 +115,11 @@ namespace akmon
     bool in_front = false;
     for (const auto &one : around)
       {
-        const auto area   = area_vector(one);
-        const auto normal = area / area.norm();
+        const auto normal = unit_normal(one);
         in_front          = in_front || normal * projection.offset > at_least;
         for (const auto &other : around)
           {
-            const auto way = 0.25 * (other[0] + other[1] + other[2] + other[3]) - x[a];
+            const auto way = middle_of(other) - x[a];
             if (normal * way > nearly_flat * way.norm())
               return false;
           }

@@ -162,7 +162,7 @@ namespace akmon
       if (face.owned)
         {
           const auto corners = segment_of(face, x);
-          const auto middle  = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+          const auto middle  = middle_of(corners);
           const auto &ranks  = alone ? only_here : regions.at(middle);
           if (ranks.empty())
             continue;

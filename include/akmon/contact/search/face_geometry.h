@@ -37,6 +37,26 @@ namespace akmon
   }
 
 
+  /// Mean of a segment's corners.
+  inline dealii::Tensor<1, 3>
+  middle_of(const Segment &corners)
+  {
+    return 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+  }
+
+
+  /// Distance of the furthest corner of a segment from its middle.
+  inline double
+  half_width(const Segment &corners)
+  {
+    const auto middle = middle_of(corners);
+    double furthest   = 0.;
+    for (const auto &corner : corners)
+      furthest = std::max(furthest, (corner - middle).norm());
+    return furthest;
+  }
+
+
   /// How far a part of an edge is beyond its ends, which are 0 and 1.
   inline double
   past_end(const double part)
