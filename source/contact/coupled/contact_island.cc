@@ -253,7 +253,7 @@ namespace akmon
     auto w = tau;
     delassus.apply(tau, w);
     double largest = 0.;
-    for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (std::size_t i = 0; i < members.size(); ++i)
       largest = std::max(largest, -problem.weights[i] * (w[i][0] + problem.b[i][0]));
     return largest;
   }
