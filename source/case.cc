@@ -321,6 +321,7 @@ namespace akmon
     ParameterHandler prm;
     declare_all(prm, names);
     parse_file(prm, file, false);
+    check_braces(prm, file);
     for (const auto &entry : entries)
       apply_override(prm, entry);
     return parse_all(prm, names, file);

@@ -127,6 +127,39 @@ namespace akmon
   }
 
 
+  void
+  check_braces(ParameterHandler &prm, const std::string &file)
+  {
+    std::ifstream in(file);
+    PrmReader reader;
+    unsigned int number = 0;
+    for (std::string line; std::getline(in, line);)
+      {
+        ++number;
+        reader.take(line);
+        if (reader.key.empty() || reader.value.find('{') == std::string::npos)
+          continue;
+        for (const auto &name : reader.open)
+          prm.enter_subsection(name);
+        const std::string read = prm.get(reader.key); // perhaps of a later line
+        try
+          {
+            prm.set(reader.key, reader.value);
+          }
+        catch (const ParameterHandler::ExcValueDoesNotMatchPattern &)
+          {
+            const std::string section = reader.open.empty() ? "" :
+                                                              "[" + join(reader.open, "/") + "] ";
+            throw InputError("line " + std::to_string(number) + ": " + section + reader.key +
+                             " = " + reader.value + ": braces are not allowed here");
+          }
+        prm.set(reader.key, read);
+        for (std::size_t i = 0; i < reader.open.size(); ++i)
+          prm.leave_subsection();
+      }
+  }
+
+
   std::string
   in_one_line(const ExceptionBase &exception, const ParameterHandler &prm, const std::string &file)
   {

@@ -20,6 +20,14 @@ namespace akmon
   std::string
   no_such_key(const dealii::ParameterHandler &prm, const std::vector<std::string> &section);
 
+  /**
+   * Throws InputError for the first value with a brace that its pattern does not allow: deal.II
+   * reads these unchecked, for its loops over parameters.
+   * @param prm  that has read the file
+   */
+  void
+  check_braces(dealii::ParameterHandler &prm, const std::string &file);
+
   /// One line out of what deal.II says about a prm file: line, section, key, value, what is
   /// allowed.
   std::string
