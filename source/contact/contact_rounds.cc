@@ -21,9 +21,6 @@ namespace akmon
     // Of the solver's tolerance: for the gaps that features of rigid bodies reach, and as much for
     // what is between them.
     constexpr double of_features = 0.5;
-
-    // After which what closed and opened in turns only closes.
-    constexpr unsigned int many_rounds = 20;
   } // namespace
 
 
@@ -65,8 +62,7 @@ namespace akmon
         set_target_gaps(state);
         if (excess == touch_anew)
           coupled->take_up_anew(pairs, dx_free, friction_of_pairs(state));
-        // Whatever friction was made up where none solves the problem would move on in every round.
-        coupled->solve(dx_free, round > many_rounds);
+        coupled->solve(dx_free);
       }
   }
 
@@ -228,6 +224,7 @@ namespace akmon
                            const unsigned int round)
   {
     constexpr double least_of_features = 0.1; // and of rims
+    constexpr unsigned int many_rounds = 20;  // what closed and opened in turns only closes then
 
     const WorkTime timing(seconds_of_work);
     const auto &dx_contact = coupled->increments();

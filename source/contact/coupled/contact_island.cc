@@ -112,7 +112,7 @@ namespace akmon
 
 
   void
-  ContactIsland::solve(const ContactSolver &parameters, const bool slips_if_wedged, Newton &newton)
+  ContactIsland::solve(const ContactSolver &parameters, Newton &newton)
   {
     constexpr unsigned int patience = 1; // iterations that old factors may cost more than new ones
 
@@ -122,8 +122,8 @@ namespace akmon
       solve_one_by_one();
     else if (!result.converged && delassus.matrix().size() > 0)
       start_elsewhere(parameters.limit, newton);
-    if (!result.converged && problem.rubs() &&
-        (slips_if_wedged || (result.residual > nearly && largest_overlap() > problem.sufficient)))
+    if (!result.converged && problem.rubs() && result.residual > nearly &&
+        largest_overlap() > problem.sufficient)
       let_slip(parameters.limit, newton);
     if (!preconditioner.is_old())
       iterations_when_new = result.n_applications;

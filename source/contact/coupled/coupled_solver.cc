@@ -102,9 +102,8 @@ namespace akmon
 
 
   void
-  CoupledSolver::solve(const ContactNodes::Field &dx_free, const bool new_wedged_slip)
+  CoupledSolver::solve(const ContactNodes::Field &dx_free)
   {
-    wedged_slip            = new_wedged_slip;
     const double tolerance = tolerance_for(dx_free);
     bool join              = activate(dx_free, nullptr, 0.) || !has_begun;
     has_begun              = true;
@@ -207,7 +206,7 @@ namespace akmon
           if (island->fits_lane())
             small.push_back(island.get());
           else
-            island->solve(parameters, wedged_slip, newton);
+            island->solve(parameters, newton);
         }
       std::stable_sort(small.begin(), small.end(), [](const Island *a, const Island *b) {
         return a->get_members().size() < b->get_members().size();
@@ -232,7 +231,7 @@ namespace akmon
       if (const auto &problem = problems[island - begin]; problem.is_solved)
         (*island)->take(problem);
       else
-        (*island)->solve(parameters, wedged_slip, newton);
+        (*island)->solve(parameters, newton);
   }
 
 

@@ -54,13 +54,9 @@ namespace akmon
     void
     pose(const ContactSolver &parameters, const double tolerance);
 
-    /**
-     * Find forces for what was posed.
-     * @param slips_if_wedged  without friction where no solution with friction is found, else with
-     *   less of it, as long as that closes the gaps
-     */
+    /// Find forces for what was posed.
     void
-    solve(const ContactSolver &parameters, const bool slips_if_wedged, Newton &newton);
+    solve(const ContactSolver &parameters, Newton &newton);
 
     /// Whether the problem may be one of several that are solved side by side.
     bool

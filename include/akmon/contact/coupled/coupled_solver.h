@@ -56,12 +56,9 @@ namespace akmon
       return friction_somewhere;
     }
 
-    /**
-     * Forces for the pairs' target gaps, warm-started from those they have (collective).
-     * @param wedged_slip  islands without a solution with friction get none (ContactIsland)
-     */
+    /// Forces for the pairs' target gaps, warm-started from those they have (collective).
     void
-    solve(const ContactNodes::Field &dx_free, const bool wedged_slip = false);
+    solve(const ContactNodes::Field &dx_free);
 
     /// Nodal increments that the last solution's forces cause, at all contact nodes.
     const ContactNodes::Field &
@@ -186,7 +183,6 @@ namespace akmon
     std::vector<bool> active; ///< by number in `all`
     double mass_factor = 1.;
     bool has_begun     = false; ///< to solve in this step
-    bool wedged_slip   = false;
 
     std::vector<unsigned int> lone;   ///< pairs that have a closed solution, by number in `all`
     std::vector<ClosingPair> closing; ///< in islands that no other rank has a part in
