@@ -1,4 +1,5 @@
 #include <akmon/checkpoint/checkpoint_file.h>
+#include <akmon/checkpoint/hdf5.h>
 #include <akmon/output/directory.h>
 #include <akmon/parameters.h>
 
@@ -191,6 +192,8 @@ namespace akmon
           const std::string described = text.substr(0, text.find("crc32 "));
           if (text != header(described, size, crc_of_file(path, size, comm)))
             fault = "it is damaged: its bytes do not fit its checksum";
+          else if (H5Fis_hdf5(path.c_str()) <= 0)
+            fault = "there is no HDF5 file behind its header";
         }
       catch (const std::runtime_error &failure)
         {
