@@ -1,8 +1,8 @@
+#include <akmon/contact/search/edge_over_face.h>
 #include <akmon/contact/search/face_geometry.h>
 #include <akmon/contact/search/feature_search.h>
 
 #include <algorithm>
-#include <cmath>
 
 // Pairs of sharp edges of rigid bodies with the inside of faces that bulge towards them.
 
@@ -17,23 +17,7 @@ namespace akmon
                               const unsigned int face,
                               std::array<double, 2> &s) const
   {
-    constexpr double least = 1e-6; // of the edge
-
-    const auto corners = surface.segment(x, face);
-    const auto normal  = unit_normal(corners);
-    s                  = {{0., 1.}};
-    for (unsigned int k = 0; k < 4; ++k)
-      {
-        const auto inward  = cross_product_3d(normal, corners[(k + 1) % 4] - corners[k]);
-        const double begin = (line.a - corners[k]) * inward, slope = line.u * inward;
-        if (slope > 0.)
-          s[0] = std::max(s[0], -begin / slope);
-        else if (slope < 0.)
-          s[1] = std::min(s[1], -begin / slope);
-        else if (begin < 0.)
-          return false;
-      }
-    return s[1] - s[0] > least;
+    return akmon::stretch_over({line.a, line.u}, surface.segment(x, face), s);
   }
 
 
@@ -42,9 +26,7 @@ namespace akmon
                           const Tensor<1, 3> &p,
                           const unsigned int face) const
   {
-    const auto corners    = surface.segment(x, face);
-    const auto projection = project(p, corners);
-    return segment_normal(corners, projection.xi, projection.eta) * projection.offset;
+    return akmon::gap_over(p, surface.segment(x, face));
   }
 
 
@@ -55,8 +37,7 @@ namespace akmon
                           const unsigned int face,
                           const std::array<double, 2> &stretch) const
   {
-    const auto gap = [&](const double s) { return gap_over(x, line.a + s * line.u, face); };
-    return 0.5 * (gap(stretch[0]) + gap(stretch[1])) - gap(0.5 * (stretch[0] + stretch[1]));
+    return akmon::sag_over({line.a, line.u}, surface.segment(x, face), stretch);
   }
 
 
@@ -73,7 +54,7 @@ namespace akmon
     const auto corners = surface.segment(x, face);
     return std::min(gap_over(x, line.a + stretch[0] * line.u, face),
                     gap_over(x, line.a + stretch[1] * line.u, face)) -
-           surely * (corners[0] - corners[1] + corners[2] - corners[3]).norm();
+           surely * twist_of(corners);
   }
 
 
@@ -88,32 +69,11 @@ namespace akmon
   {
     constexpr double from_ends = 5e-3; // of the edge over the face
 
-    const auto corners = surface.segment(x, face);
-    const auto slope   = [&](const double s) {
-      const auto foot = project(line.a + s * line.u, corners);
-      return line.u * segment_normal(corners, foot.xi, foot.eta);
-    };
     const auto at = [&](const double third) {
       return stretch[0] +
              std::clamp(third / 3., from_ends, 1. - from_ends) * (stretch[1] - stretch[0]);
     };
-    double low = at(part), high = at(part + 1.), f_low = slope(low), f_high = slope(high);
-    if (f_low >= 0.)
-      return low;
-    if (f_high <= 0.)
-      return high;
-    // The slope is nearly linear: false position, and halves where that is slow.
-    double s = low;
-    for (unsigned int i = 0; i < 60 && high - low > 1e-12; ++i)
-      {
-        s = i % 3 == 2 ? 0.5 * (low + high) : (low * f_high - high * f_low) / (f_high - f_low);
-        const double f = slope(s);
-        if (std::abs(f) <= 1e-15 * line.u.norm())
-          break;
-        (f < 0. ? low : high)     = s;
-        (f < 0. ? f_low : f_high) = f;
-      }
-    return s;
+    return closest_between({line.a, line.u}, surface.segment(x, face), at(part), at(part + 1.));
   }
 
 
