@@ -36,6 +36,10 @@ namespace akmon
     coupled->solve(dx_free);
     if (searches.empty() && bodies.empty())
       return;
+    const bool has_edges = !feature_searches.empty() ||
+                           std::any_of(edge_searches.begin(),
+                                       edge_searches.end(),
+                                       [](const auto &search) { return search.may_miss_dips(); });
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
         const auto poses  = reach();
@@ -43,7 +47,7 @@ namespace akmon
         const double here = std::max(follow_partners(state, poses, round),
                                      joining.empty() ? 0. : touch_anew);
         double excess     = Utilities::MPI::max(here, discretization.communicator());
-        if ((excess <= 1. || round % unsettled == 0) && !feature_searches.empty())
+        if ((excess <= 1. || round % unsettled == 0) && has_edges)
           {
             const auto bulges = follow_bulges(poses);
             joining.insert(joining.end(), bulges.begin(), bulges.end());
@@ -103,7 +107,7 @@ namespace akmon
   }
 
 
-  // Pairs for what edges of rigid bodies are in faces deeper than the settled pairs tell.
+  // Pairs for what edges are in faces deeper than the settled pairs tell.
   std::vector<ContactPair>
   Contact::follow_bulges(const std::vector<Pose> &poses)
   {
@@ -118,6 +122,8 @@ namespace akmon
                                         of_features * solver.tolerance,
                                         joining);
       }
+    for (const auto &search : edge_searches)
+      search.join_dips(x, x_reached, dx_reached, pairs, joining);
     return joining;
   }
 
@@ -194,17 +200,18 @@ namespace akmon
 
   // Up to which the gaps that a step reaches are to be right, over the cell size. Rigid shapes are
   // exact, and so are gaps from them, but no better than forces are known, and late in a step not
-  // at sharp edges, where the closest face changes; normals of edges turn fast.
+  // at sharp edges, where the closest face changes; normals of edges turn fast. Late in a step dips
+  // that move on along an edge need not be as good.
   double
   Contact::gap_tolerance(const ContactPair &pair, const bool late) const
   {
-    constexpr double of_faces = 1e-7, of_edges = 1e-10, of_rigid = 1e-12, of_kinks = 1e-10,
-                     of_touches = 1e-11;
+    constexpr double of_faces = 1e-7, of_edges = 1e-10, of_dips = 5e-10, of_rigid = 1e-12,
+                     of_kinks = 1e-10, of_touches = 1e-11;
 
     if (pair.is_touch())
       return of_touches;
     if (pair.of_edges)
-      return of_edges;
+      return late && pair.is_dip() ? of_dips : of_edges;
     if (pair.interface < contacts.size())
       return of_faces;
     return std::max(2. * coupled->residual(),
@@ -243,7 +250,7 @@ namespace akmon
         const auto motion = pair->relative(dx_reached);
         // Whatever is beyond is another partner. Bulges may be highest far from where they were.
         const double bound   = std::max(0.5 * motion.norm(),
-                                      pair->of_features || pair->is_touch() ?
+                                      pair->of_features || pair->is_touch() || pair->is_dip() ?
                                           least_of_features * pair->size :
                                           0.);
         const double linear  = pair->gap + pair->normal * motion;

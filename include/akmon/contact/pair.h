@@ -19,6 +19,10 @@ namespace akmon
    * slave's edge and c, d of the master's, and the closest points at the parts s and t of them. The
    * normal is that of both edges; a stands for the slave where one node is asked for.
    *
+   * Or a point of an edge and one of the inside of a face, G u = (1-s) u_a + s u_b - sum_k N_k u_k
+   * with the normal of the face, where a face that is twisted dips over the edge. If the face is
+   * the slave's both change sides, sign and normal; a node of the face then stands for the slave.
+   *
    * While a gap o = x_s - sum_k N_k x_k is open, opposite forces at both its ends are a couple
    * o x t, and a rigid rotation changes G u. Where that matters the operator is
    *
@@ -40,12 +44,12 @@ namespace akmon
   struct ContactPair
   {
     unsigned int interface;   ///< number of the contact or obstacle
-    bool of_edges    = false; ///< two edges that cross, not a node and a segment
+    bool of_edges    = false; ///< an edge with an edge or a face, not a node and a segment
     bool of_features = false; ///< a rigid body's corner or edge with a face or edge of a surface
     bool reversed    = false; ///< slave and master of the interface change roles
     unsigned int slave;       ///< local number of the (owned) slave node
     ContactNodes::Id slave_id;
-    std::array<ContactNodes::Id, 3> others{}; ///< of two edges: ids of the nodes b, c, d
+    std::array<ContactNodes::Id, 3> others{}; ///< of edges: ids of further nodes, for two b, c, d
     unsigned int slot   = 0;     ///< 0: with the closest face; else with another face of a corner
     bool shares_corner  = false; ///< the slave has pairs with several faces, each for itself
     unsigned int search = 0;     ///< that found it: its number, of the slave and of the face there
@@ -66,7 +70,7 @@ namespace akmon
 
     bool levered = false;
     dealii::Tensor<2, 3> lever;               ///< [o x] I^{-1}; 1/length
-    std::array<dealii::Tensor<1, 3>, 5> arms; ///< r_k of the points, zero for a slave; length
+    std::array<dealii::Tensor<1, 3>, 6> arms; ///< r_k of the points, zero for a slave; length
 
     dealii::Tensor<1, 3> plane_normal; ///< of the partner if rigid, in its frame
     double plane_offset = 0.;          ///< the plane is plane_normal . X = plane_offset; length
@@ -100,6 +104,13 @@ namespace akmon
     is_touch() const
     {
       return slave == dealii::numbers::invalid_unsigned_int && !of_edges && !of_features;
+    }
+
+    /// Whether it has joined where edges or faces dip between other pairs (EdgeSearch).
+    bool
+    is_dip() const
+    {
+      return of_edges && slot > 0;
     }
 
     void

@@ -1,4 +1,5 @@
 #include <akmon/contact/search/edge_search.h>
+#include <akmon/contact/search/edge_wedge.h>
 #include <akmon/contact/search/face_geometry.h>
 
 #include <algorithm>
@@ -14,70 +15,7 @@ namespace akmon
   {
     constexpr double least_sine = 0.2;  // between edges, 12 degrees: below, nodes and edges meet
     constexpr double first_sine = 0.22; // the same of new pairs, 13 degrees
-    constexpr double tilted     = 0.17; // sine: a normal may be off the range of an edge's so far
     constexpr double steps      = 2.;   // that edges may slide beyond their ends until they meet
-
-
-    Tensor<1, 3>
-    point_on(const ContactNodes::Field &x, const FeatureEdge &edge, const double part)
-    {
-      return (1. - part) * x[edge.nodes[0]] + part * x[edge.nodes[1]];
-    }
-
-
-    // An edge's direction, counter-clockwise around its first face, and the normals of both.
-    struct Wedge
-    {
-      Tensor<1, 3> along;
-      std::array<Tensor<1, 3>, 2> normals;
-
-      Wedge(const ContactNodes::Field &x, const FeatureEdge &edge)
-      {
-        const auto corner = [&](const unsigned int f, const unsigned int k) {
-          return x[edge.corners[f][k % 4]];
-        };
-        const auto is_end = [&](const unsigned int k) {
-          const unsigned int node = edge.corners[0][k % 4];
-          return node == edge.nodes[0] || node == edge.nodes[1];
-        };
-        unsigned int k = 0; // the edge starts there in the first face
-        while (!is_end(k) || !is_end(k + 1))
-          ++k;
-        along = corner(0, k + 1) - corner(0, k);
-        along /= along.norm();
-        for (unsigned int f = 0; f < edge.n_faces; ++f)
-          {
-            normals[f] = area_vector({{corner(f, 0), corner(f, 1), corner(f, 2), corner(f, 3)}});
-            normals[f] /= normals[f].norm();
-          }
-        // Beyond a rim the surface turns as it did initially.
-        if (edge.n_faces == 1)
-          normals[1] = std::cos(edge.angle) * normals[0] +
-                       std::sin(edge.angle) * cross_product_3d(along, normals[0]);
-      }
-
-      // Whether a normal is one that the surface takes as it turns about the edge. One of a face
-      // that dips a little below the edge counts, too: whatever comes past the edge is in the body.
-      bool
-      takes(const Tensor<1, 3> &normal) const
-      {
-        return normal * (normals[0] + normals[1]) > 0. &&
-               cross_product_3d(normals[0], normal) * along >= -tilted &&
-               cross_product_3d(normal, normals[1]) * along >= -tilted;
-      }
-
-      // Whether a place beside the edge is over one of its faces, no higher than a length.
-      bool
-      is_under(const Tensor<1, 3> &from_edge, const double height) const
-      {
-        const std::array<Tensor<1, 3>, 2> inward{
-          {cross_product_3d(normals[0], along), cross_product_3d(along, normals[1])}};
-        for (unsigned int f = 0; f < 2; ++f)
-          if (from_edge * inward[f] > 0. && from_edge * normals[f] <= height)
-            return true;
-        return false;
-      }
-    };
 
 
     // How far edges that cross do so beyond corners, where there is nothing that could be hit.
@@ -113,7 +51,7 @@ namespace akmon
                  const FeatureEdge &edge,
                  const double part,
                  const FeatureEdge &other,
-                 const Wedge &of_other)
+                 const EdgeWedge &of_other)
     {
       constexpr double beside = 0.1, rounding = 1e-10; // of the cell size
 
@@ -180,7 +118,7 @@ namespace akmon
     if (std::abs(crossing.gap) >
         std::max(reach, deepest_part * std::min(slave.depth, master.depth)))
       return false;
-    const Wedge of_master(x, master), of_slave(x, slave);
+    const EdgeWedge of_master(x, master), of_slave(x, slave);
     if (!of_master.takes(crossing.normal))
       {
         crossing.normal *= -1.;
@@ -249,6 +187,8 @@ namespace akmon
   bool
   EdgeSearch::gap_at(const ContactNodes::Field &x, const ContactPair &pair, double &gap) const
   {
+    if (pair.n_nodes > 4)
+      return dip_gap_at(x, pair, gap);
     const FeatureEdge &slave = slaves[pair.row], &master = masters[pair.face];
     EdgeCrossing crossing;
     if (!cross(x, slave, master, crossing))
@@ -306,8 +246,9 @@ namespace akmon
                          const ContactNodes::Field &next,
                          const double reach,
                          const std::vector<ContactPair> &previous,
-                         std::vector<ContactPair> &pairs) const
+                         std::vector<ContactPair> &pairs)
   {
+    const std::size_t first = pairs.size();
     for (const auto &[slave, master] : candidates)
       {
         EdgeCrossing crossing;
@@ -327,5 +268,11 @@ namespace akmon
           continue;
         pairs.push_back(pair);
       }
+    const std::size_t n_crossings = pairs.size();
+    find_dips(x, reach, previous, pairs);
+    if (pairs.size() > n_crossings)
+      std::sort(pairs.begin() + first, pairs.end(), [](const ContactPair &a, const ContactPair &b) {
+        return a.key() < b.key();
+      });
   }
 } // namespace akmon

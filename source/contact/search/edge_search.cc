@@ -86,7 +86,12 @@ namespace akmon
     const auto total = [&](const std::vector<OwnEdge> &own) {
       return Utilities::MPI::sum(own.size(), discretization.communicator());
     };
-    exist = total(own_slaves) > 0 && total(own_masters) > 0;
+    exist                 = total(own_slaves) > 0 && total(own_masters) > 0;
+    unsigned int n_narrow = 0;
+    for (const auto *const own : {&own_slaves, &own_masters})
+      for (const auto &edge : *own)
+        n_narrow += edge.edge.narrow[0] + edge.edge.narrow[1];
+    has_narrow_faces = exist && Utilities::MPI::sum(n_narrow, discretization.communicator()) > 0;
   }
 
 
@@ -113,8 +118,34 @@ namespace akmon
   }
 
 
-  // Those of the edges that are sharp and belong to one of some faces. Edges belong to the owner of
-  // their first node.
+  // An edge between two faces; of none on the surface if it is no part of it.
+  EdgeSearch::OwnEdge
+  EdgeSearch::edge_between(const FaceEdge &first,
+                           const FaceEdge &second,
+                           const std::set<types::global_cell_index> &surface) const
+  {
+    OwnEdge edge{};
+    edge.nodes      = first.nodes;
+    edge.edge.angle = turn_between(discretization, *first.face, *second.face, first.k);
+    edge.edge.size = edge.edge.depth = edge.edge.stiffness = std::numeric_limits<double>::max();
+    for (const auto &side : {first, second})
+      if (surface.count(side.face->id) > 0)
+        {
+          const auto &face                = *side.face;
+          edge.edge.body                  = face.body;
+          edge.edge.size                  = std::min(edge.edge.size,
+                                    least_edge(segment_of(face, discretization.reference)));
+          edge.edge.depth                 = std::min(edge.edge.depth, face.depth);
+          edge.edge.stiffness             = std::min(edge.edge.stiffness,
+                                         penalty_stiffness(discretization, face));
+          edge.faces[edge.edge.n_faces++] = face.nodes;
+        }
+    return edge;
+  }
+
+
+  // Those of the edges that are sharp and belong to one of some faces, and the others of narrow
+  // faces. Edges belong to the owner of their first node.
   std::vector<EdgeSearch::OwnEdge>
   EdgeSearch::sharp_edges(const std::vector<FaceEdge> &edges,
                           const std::vector<BoundaryFace> &surface,
@@ -124,7 +155,7 @@ namespace akmon
     for (const auto &face : surface)
       on_surface.insert(face.id);
     NodalVector n_at_node = discretization.make_vector(), ways = discretization.make_vector();
-    std::vector<OwnEdge> result;
+    std::vector<OwnEdge> result, others;
     for (auto begin = edges.begin(); begin != edges.end();)
       {
         auto end = begin;
@@ -134,25 +165,18 @@ namespace akmon
         begin            = end;
         if (end - first != 2)
           continue; // of a fold that touches itself
-        OwnEdge edge{};
-        edge.edge.angle = turn_between(discretization, *first[0].face, *first[1].face, first[0].k);
-        edge.edge.size = edge.edge.depth = edge.edge.stiffness = std::numeric_limits<double>::max();
-        for (const auto &side : {first[0], first[1]})
-          if (on_surface.count(side.face->id) > 0)
-            {
-              const auto &face                = *side.face;
-              edge.edge.body                  = face.body;
-              edge.edge.size                  = std::min(edge.edge.size,
-                                        least_edge(segment_of(face, discretization.reference)));
-              edge.edge.depth                 = std::min(edge.edge.depth, face.depth);
-              edge.edge.stiffness             = std::min(edge.edge.stiffness,
-                                             penalty_stiffness(discretization, face));
-              edge.faces[edge.edge.n_faces++] = face.nodes;
-            }
-        if (edge.edge.n_faces == 0 || edge.edge.angle < least_angle)
+        OwnEdge edge = edge_between(first[0], first[1], on_surface);
+        if (edge.edge.n_faces == 0)
           continue;
-        edge.nodes = first->nodes;
-        auto way   = at_node(discretization.reference, edge.nodes[1]) -
+        const bool is_own = edge.nodes[0] < discretization.n_owned_nodes;
+        edge.edge.sharp   = edge.edge.angle >= least_angle;
+        if (!edge.edge.sharp)
+          {
+            if (is_own && edge.edge.angle > -least_angle)
+              others.push_back(edge);
+            continue;
+          }
+        auto way = at_node(discretization.reference, edge.nodes[1]) -
                    at_node(discretization.reference, edge.nodes[0]);
         way /= way.norm();
         for (unsigned int end = 0; end < 2; ++end)
@@ -162,7 +186,7 @@ namespace akmon
               for (unsigned int d = 0; d < 3; ++d)
                 ways.local_element(3 * node + d) += (end == 0 ? 1. : -1.) * way[d];
             }
-        if (edge.nodes[0] < discretization.n_owned_nodes)
+        if (is_own)
           result.push_back(edge);
       }
     n_at_node.update_ghost_values();
@@ -173,7 +197,36 @@ namespace akmon
       for (unsigned int end = 0; end < 2; ++end)
         edge.edge.end[end] = n_at_node.local_element(3 * edge.nodes[end]) != 2. ||
                              at_node(ways, edge.nodes[end]).norm() > straight;
+    add_edges_of_narrow_faces(n_at_node, others, result);
     return result;
+  }
+
+
+  // To the sharp ones, by how many of these there are at the nodes. They end there.
+  void
+  EdgeSearch::add_edges_of_narrow_faces(const NodalVector &n_at_node,
+                                        const std::vector<OwnEdge> &others,
+                                        std::vector<OwnEdge> &edges)
+  {
+    const auto is_at_sharp_edge = [&](const unsigned int node) {
+      return n_at_node.local_element(3 * node) > 0.;
+    };
+    const auto find_narrow_faces = [&](OwnEdge &edge) {
+      for (unsigned int f = 0; f < edge.edge.n_faces; ++f)
+        edge.edge.narrow[f] = std::all_of(edge.faces[f].begin(),
+                                          edge.faces[f].end(),
+                                          is_at_sharp_edge);
+    };
+    for (auto &edge : edges)
+      find_narrow_faces(edge);
+    for (OwnEdge edge : others)
+      {
+        find_narrow_faces(edge);
+        for (unsigned int end = 0; end < 2; ++end)
+          edge.edge.end[end] = is_at_sharp_edge(edge.nodes[end]);
+        if (edge.edge.narrow[0] || edge.edge.narrow[1])
+          edges.push_back(edge);
+      }
   }
 
 
@@ -196,6 +249,20 @@ namespace akmon
   }
 
 
+  // How far the edges of a face over an edge may be beyond the radius of its ends.
+  double
+  EdgeSearch::margin_of_faces(const NodalVector &x) const
+  {
+    double widest = 0.;
+    for (const auto *const own : {&own_slaves, &own_masters})
+      for (const auto &edge : *own)
+        for (unsigned int f = 0; f < edge.edge.n_faces; ++f)
+          for (const unsigned int node : edge.faces[f])
+            widest = std::max(widest, (at_node(x, node) - at_node(x, edge.nodes[0])).norm());
+    return 2. * Utilities::MPI::max(widest, discretization.communicator());
+  }
+
+
   std::vector<ContactNodes::Id>
   EdgeSearch::fetch_edges(const ContactNodes &nodes, const NodalVector &x, const double radius)
   {
@@ -212,7 +279,10 @@ namespace akmon
     for (unsigned int i = 0; i < slaves.size(); ++i)
       for (const unsigned int node : own_slaves[i].nodes)
         regions.add(at_node(x, node), slaves[i].body);
-    regions.exchange(radius + 0.5 * Utilities::MPI::max(longest, communicator), communicator);
+    double margin = radius + 0.5 * Utilities::MPI::max(longest, communicator);
+    if (has_narrow_faces)
+      margin += margin_of_faces(x);
+    regions.exchange(margin, communicator);
 
     std::map<unsigned int, std::vector<FeatureEdge>> outgoing;
     for (unsigned int i = 0; i < own.size(); ++i)
@@ -238,12 +308,44 @@ namespace akmon
   }
 
 
+  // Each narrow face once, sorted by ids. Which of its edges are here does not matter.
+  std::vector<EdgeSearch::EdgeFace>
+  EdgeSearch::faces_of(const ContactNodes &nodes, const std::vector<FeatureEdge> &edges)
+  {
+    std::vector<EdgeFace> faces;
+    for (const auto &edge : edges)
+      for (unsigned int f = 0; f < edge.n_faces; ++f)
+        {
+          if (!edge.narrow[f])
+            continue;
+          EdgeFace face;
+          face.ids    = edge.faces[f];
+          face.nodes  = edge.corners[f];
+          face.lowest = std::min_element(face.ids.begin(), face.ids.end()) - face.ids.begin();
+          const unsigned int lowest = face.nodes[face.lowest];
+          face.local                = lowest < nodes.n_owned() ? nodes.local_node(lowest) :
+                                                                 numbers::invalid_unsigned_int;
+          faces.push_back(face);
+        }
+    std::sort(faces.begin(), faces.end(), [](const EdgeFace &a, const EdgeFace &b) {
+      return a.ids < b.ids;
+    });
+    faces.erase(std::unique(faces.begin(),
+                            faces.end(),
+                            [](const EdgeFace &a, const EdgeFace &b) { return a.ids == b.ids; }),
+                faces.end());
+    return faces;
+  }
+
+
   void
   EdgeSearch::build_candidates(const ContactNodes &nodes,
                                const ContactNodes::Field &x,
                                const double radius)
   {
     candidates.clear();
+    line_candidates.clear();
+    dip_candidates.clear();
     if (!exist)
       return;
     akmon::number(nodes, slaves);
@@ -267,9 +369,13 @@ namespace akmon
                                         slave.ids[1] == master.ids[0] ||
                                         slave.ids[1] == master.ids[1];
                      if (!touch && (!one_surface || slave.ids < master.ids))
-                       candidates.push_back({{i, entry.second}});
+                       (slave.sharp && master.sharp ? candidates : line_candidates)
+                         .push_back({{i, entry.second}});
                    }));
       }
     std::sort(candidates.begin(), candidates.end());
+    std::sort(line_candidates.begin(), line_candidates.end());
+    if (has_narrow_faces)
+      build_dip_candidates(nodes, x, radius);
   }
 } // namespace akmon
