@@ -26,14 +26,18 @@ namespace akmon
   ContactResponse::update()
   {
     loaded.clear();
+    loads.clear();
     for (ContactPair *const pair : pairs)
       if (pair->normal_force > 0.)
-        loaded.push_back(pair);
+        {
+          loaded.push_back(pair);
+          loads.push_back({pair->force(), pair->turn(pair->force())});
+        }
     nodes.make(field);
     sums.add(
       loaded,
       [&](const std::size_t i, const unsigned int k) {
-        return loaded[i]->at_node(k, loaded[i]->force());
+        return loaded[i]->at_node(k, loads[i].force, loads[i].turn);
       },
       field);
     const auto to_increment = [&](const unsigned int number) {

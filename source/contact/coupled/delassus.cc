@@ -92,17 +92,21 @@ namespace akmon
   void
   Delassus::collect_columns(const ClosingPair &member)
   {
-    const ContactPair &pair = member.pair;
-    frames.push_back(frame_of(pair.normal));
-    double A_ii = 0.;
+    const ContactPair &pair = *member.pair;
+    const auto frame        = frame_of(pair.normal);
+    frames.push_back(frame);
+    const std::array<Tensor<1, 3>, 3> turns{
+      {pair.turn(frame[0]), pair.turn(frame[1]), pair.turn(frame[2])}};
+    const double inverse_factor = 1. / mass_factor;
+    double A_ii                 = 0.;
     for (unsigned int k = 0; k < pair.n_nodes; ++k)
       if (trace(member.mobility[k]) > 0.) // else it is held
         {
           Column column{member.ids[k], {}, {}};
           for (unsigned int d = 0; d < 3; ++d)
             {
-              column.force[d]     = pair.at_node(k, frames.back()[d]);
-              column.increment[d] = member.mobility[k] * column.force[d] / mass_factor;
+              column.force[d]     = pair.at_node(k, frame[d], turns[d]);
+              column.increment[d] = inverse_factor * (member.mobility[k] * column.force[d]);
             }
           A_ii += column.force[0] * column.increment[0];
           columns.push_back(column);

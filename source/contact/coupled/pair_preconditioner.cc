@@ -144,11 +144,12 @@ namespace akmon
               last_at_node[node] = c;
             }
       }
-    auto lists = sets.lists();
-    for (auto &list : lists)
-      for (unsigned int &c : list)
-        c = closed[c];
-    return lists;
+    const auto lists = sets.lists();
+    std::vector<std::vector<unsigned int>> of_pairs(lists.size());
+    for (std::size_t l = 0; l < lists.size(); ++l)
+      for (const unsigned int c : lists[l])
+        of_pairs[l].push_back(closed[c]);
+    return of_pairs;
   }
 
 

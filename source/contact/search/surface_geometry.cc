@@ -49,11 +49,16 @@ namespace akmon
 
   // Sum of the area vectors of the slave faces around a node.
   Tensor<1, 3>
-  SurfaceSearch::slave_normal(const ContactNodes::Field &x, const unsigned int slave) const
+  SurfaceSearch::slave_normal(const ContactNodes::Field &x, const unsigned int slave)
   {
     Tensor<1, 3> normal;
     for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
-      normal += area_vector(segment(x, nodes_of_slave_faces[i]));
+      {
+        FaceArea &area = face_areas[slave_face_list[i]];
+        if (area.look != n_configurations)
+          area = {n_configurations, area_vector(segment(x, nodes_of_slave_faces[i]))};
+        normal += area.vector;
+      }
     return normal;
   }
 

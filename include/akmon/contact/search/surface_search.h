@@ -214,6 +214,15 @@ namespace akmon
       bool was_outside       = false; ///< of that face, and further than the reach
       double clear_of        = 0.;    ///< no face is closer; length
       double others_clear_of = 0.;    ///< no other face is closer; length
+      unsigned long search   = 0;     ///< number of the one that found the foot
+      std::array<double, 2> foot{};   ///< (xi, eta) of the closest point in that face
+    };
+
+    // Of a slave face, in the configuration that was looked at last when it was asked for.
+    struct FaceArea
+    {
+      unsigned long look = 0; ///< number of that configuration
+      dealii::Tensor<1, 3> vector;
     };
 
     struct Partner
@@ -267,7 +276,7 @@ namespace akmon
                   const double reach,
                   std::vector<ContactPair> &pairs);
     dealii::Tensor<1, 3>
-    slave_normal(const ContactNodes::Field &x, const unsigned int slave) const;
+    slave_normal(const ContactNodes::Field &x, const unsigned int slave);
     double
     bound_of_distance(const unsigned int candidate) const
     {
@@ -351,9 +360,11 @@ namespace akmon
     std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list;
     std::vector<Candidate> candidates;
-    std::vector<FaceNodes> nodes_of_slave_faces; ///< in the order of slave_face_list
-    std::vector<dealii::Tensor<1, 3>> outwards;  ///< by slave: area vector of its faces
-    std::vector<Memory> memories;                ///< by slave
+    std::vector<FaceNodes> nodes_of_slave_faces;        ///< in the order of slave_face_list
+    std::vector<FaceArea> face_areas;                   ///< by slave face
+    unsigned long n_configurations = 0, n_searches = 0; ///< looked at; among them for pairs
+    std::vector<dealii::Tensor<1, 3>> outwards;         ///< by slave: area vector of its faces
+    std::vector<Memory> memories;                       ///< by slave
     std::vector<BodyPair> body_pairs;
     std::vector<PairAround> pairs_around; ///< by slave
     std::vector<Motion> motions_around;   ///< by slave, in this step
