@@ -108,7 +108,7 @@ namespace akmon
       },
       force);
     for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-      field.add(i, mobility[i] * force[i] / effective_mass_factor);
+      field.add(i, mobility.times(force[i], i) / effective_mass_factor);
   }
 
 
@@ -145,7 +145,7 @@ namespace akmon
             double reached;
             reached_gap(*pair, poses, reached);
             const double lacking = std::min(0., pair->gap + release(*pair, state)) - reached;
-            const auto response  = mobility[node] * pair->normal / effective_mass_factor;
+            const auto response  = mobility.times(pair->normal, node) / effective_mass_factor;
             const double along   = pair->normal * response;
             if (!(lacking > 1e-16 * (pair->size + x_reached[node].norm())) || !(along > 0.))
               continue;
@@ -239,12 +239,15 @@ namespace akmon
           const auto turn = pair.turn(normal), tangential_turn = pair.turn(pair.tangential_force);
           for (unsigned int k = 0; k < pair.n_nodes; ++k)
             if (pair.nodes[k] < nodes.first_common())
-              contributions.push_back({nodes.id(pair.nodes[k]),
-                                       pair.interface,
-                                       pair.slave_id,
-                                       pair.at_node(k, normal, turn),
-                                       pair.at_node(k, pair.tangential_force, tangential_turn),
-                                       pair.sticks});
+              {
+                auto &contribution      = contributions.emplace_back();
+                contribution.node       = nodes.id(pair.nodes[k]);
+                contribution.interface  = pair.interface;
+                contribution.slave      = pair.slave_id;
+                contribution.normal     = pair.at_node(k, normal, turn);
+                contribution.tangential = pair.at_node(k, pair.tangential_force, tangential_turn);
+                contribution.sticks     = pair.sticks;
+              }
         }
     nodes.send_to_owners(contributions);
 

@@ -253,6 +253,8 @@ namespace akmon
     follow_partners(const NodalState &state,
                     const std::vector<Pose> &poses,
                     const unsigned int round);
+    void
+    prefetch(const ContactPair &pair) const;
     double
     gap_tolerance(const ContactPair &pair, const bool late) const;
     static void

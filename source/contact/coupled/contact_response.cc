@@ -42,7 +42,7 @@ namespace akmon
       field);
     const auto to_increment = [&](const unsigned int number) {
       if (const auto force = field[number]; force != dealii::Tensor<1, 3>()) // few nodes have one
-        field.set(number, mobility[number] * force / mass_factor);
+        field.set(number, mobility.times(force, number) / mass_factor);
     };
     for (unsigned int number = 0; number < nodes.n_owned(); ++number)
       to_increment(number);

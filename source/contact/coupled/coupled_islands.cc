@@ -138,18 +138,17 @@ namespace akmon
                                      std::vector<ClosingPair> &pairs) const
   {
     const ContactPair &pair = *all[number];
-    pairs.push_back({&pair,
-                     {},
-                     {},
-                     friction_of_all[number],
-                     pair.relative(dx_free),
-                     bonded,
-                     Utilities::MPI::this_mpi_process(nodes.get_communicator()),
-                     number});
+    ClosingPair &closing    = pairs.emplace_back();
+    closing.pair            = &pair;
+    closing.friction        = friction_of_all[number];
+    closing.free_motion     = pair.relative(dx_free);
+    closing.is_bonded       = bonded;
+    closing.rank            = rank;
+    closing.number          = number;
     for (unsigned int k = 0; k < pair.n_nodes; ++k)
       {
-        pairs.back().ids[k]      = nodes.id_or_common(pair.nodes[k]);
-        pairs.back().mobility[k] = mobility[pair.nodes[k]];
+        closing.ids[k]      = nodes.id_or_common(pair.nodes[k]);
+        closing.mobility[k] = mobility[pair.nodes[k]];
       }
   }
 
@@ -158,7 +157,6 @@ namespace akmon
   void
   CoupledSolver::divide_shared_pairs()
   {
-    const unsigned int rank = Utilities::MPI::this_mpi_process(nodes.get_communicator());
     to_send.clear();
     for (const ClosingPair &own : shared)
       to_send.push_back({*own.pair, own});
@@ -247,9 +245,7 @@ namespace akmon
   void
   CoupledSolver::bring_forces_home()
   {
-    const MPI_Comm communicator = nodes.get_communicator();
-    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
-    const auto take             = [&](const unsigned int number, const PairForce &force) {
+    const auto take = [&](const unsigned int number, const PairForce &force) {
       ContactPair &pair     = *all[number];
       pair.normal_force     = force.normal;
       pair.tangential_force = force.tangential;
@@ -269,7 +265,7 @@ namespace akmon
         }
     if (!nodes.is_parallel() || of_all_ranks.empty())
       return;
-    for (const Solved &of_pair : gather(solved, communicator))
+    for (const Solved &of_pair : gather(solved, nodes.get_communicator()))
       if (of_pair.rank == rank)
         take(of_pair.number, of_pair.force);
   }

@@ -37,6 +37,7 @@ namespace akmon
     , nodes(nodes)
     , mobility(mobility)
     , bonds(bonds)
+    , rank(Utilities::MPI::this_mpi_process(nodes.get_communicator()))
     , response(nodes, mobility, bonds)
   {
   }

@@ -244,7 +244,7 @@ namespace akmon
                 entries.push_back({node,
                                    member.row + j,
                                    pair.at_node(k, force),
-                                   (*mobility)[node] * pair.at_node(k, along) / mass_factor});
+                                   mobility->times(pair.at_node(k, along), node) / mass_factor});
           }
       }
     std::stable_sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {

@@ -82,8 +82,8 @@ namespace akmon
       components_of_corners[k] = components(corners[k]);
     const FaceBox<double> box(components_of_corners);
     const auto from_middle = components(point - middle);
-    return std::hypot(box.beyond(from_middle, 0), box.beyond(from_middle, 1)) <=
-           beside * std::sqrt(box.area);
+    const double beyond_0 = box.beyond(from_middle, 0), beyond_1 = box.beyond(from_middle, 1);
+    return beyond_0 * beyond_0 + beyond_1 * beyond_1 <= beside * beside * box.area;
   }
 
 

@@ -221,10 +221,18 @@ namespace akmon
                                looks.end(),
                                [&](const Look &look) { return is_still_outside(look); }),
                 looks.end());
-    for (const Look &look : looks)
-      outwards[look.slave] = slave_normal(x, look.slave);
-    for (const auto &[slave, reach] : looks)
-      find_pairs_of(x, slave, reach, pairs);
+    for (std::size_t i = 0; i < looks.size(); ++i)
+      {
+        if (i + prefetched < looks.size())
+          __builtin_prefetch(&nodes_of_slave_faces[slaves[looks[i + prefetched].slave].first_face]);
+        outwards[looks[i].slave] = slave_normal(x, looks[i].slave);
+      }
+    for (std::size_t i = 0; i < looks.size(); ++i)
+      {
+        if (i + prefetched < looks.size())
+          prefetch_face(memories[looks[i + prefetched].slave].face);
+        find_pairs_of(x, looks[i].slave, looks[i].reach, pairs);
+      }
   }
 
 

@@ -174,6 +174,7 @@ namespace akmon
     const ContactNodes &nodes;
     const Mobility &mobility;
     const Bonds *const bonds;
+    const unsigned int rank;
     ContactResponse response;
     ContactIsland::Newton newton;
     NewtonLanes lanes;

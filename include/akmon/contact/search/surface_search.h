@@ -5,6 +5,7 @@
 #include <akmon/contact/pair.h>
 #include <akmon/contact/search/body_motions.h>
 #include <akmon/contact/search/box_grid.h>
+#include <akmon/contact/search/master_face.h>
 #include <akmon/contact/search/projection.h>
 #include <akmon/contact/search/rank_regions.h>
 
@@ -119,6 +120,15 @@ namespace akmon
       return master_faces;
     }
 
+    /// Fetch from memory what gap_at() of the pair that is this many further on will read first.
+    static constexpr unsigned int prefetched = 4;
+
+    void
+    prefetch(const ContactPair &pair) const
+    {
+      prefetch_face(pair.face);
+    }
+
   private:
     struct Slave
     {
@@ -166,30 +176,6 @@ namespace akmon
       double reach; ///< length
     };
 
-    using FaceNodes = std::array<unsigned int, 4>; // contact numbers
-
-    struct MasterFace
-    {
-      FaceNodes nodes;
-      double depth, stiffness; ///< as in its message
-    };
-
-    struct FaceMessage
-    {
-      dealii::types::global_cell_index id;
-      unsigned int body;
-      double depth;     ///< thickness of the cell behind the face; length
-      double stiffness; ///< K A^2/V of that cell; force/length
-      std::array<ContactNodes::Id, 4> nodes;
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &id &body &depth &stiffness &nodes;
-      }
-    };
-
     static constexpr double
       furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
@@ -233,6 +219,12 @@ namespace akmon
       double gap;                  ///< along the normal; length
     };
 
+    void
+    prefetch_face(const unsigned int face) const
+    {
+      if (face < masters.size())
+        __builtin_prefetch(&masters[face]);
+    }
     void
     collect_slaves();
     RankRegions
