@@ -30,8 +30,7 @@ namespace akmon
     if (pair.slave == numbers::invalid_unsigned_int) // rigid bodies know no wave speed
       return solver.release_speed * pair.size;
     return solver.release_speed * state.dt_next *
-           discretization.material_of(discretization.body_of_node[pair.slave])
-             .dilatational_wave_speed();
+           wave_speeds[discretization.body_of_node[pair.slave]];
   }
 
 
@@ -92,6 +91,27 @@ namespace akmon
   }
 
 
+  // The increments of owned nodes that the pairs' forces cause.
+  void
+  Contact::add_response(const double effective_mass_factor, ContactNodes::Field &field)
+  {
+    ContactNodes::Field force;
+    nodes.make(force);
+    std::vector<ContactPair *> active;
+    for (auto &pair : pairs)
+      if (pair.normal_force > 0.)
+        active.push_back(&pair);
+    NodalSums(nodes).add(
+      active,
+      [&](const std::size_t i, const unsigned int k) {
+        return active[i]->at_node(k, active[i]->force());
+      },
+      force);
+    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+      field.add(i, mobility.times(force[i], i) / effective_mass_factor);
+  }
+
+
   // What is left of penetrations into obstacles that forces do not move, after the solution: taken
   // away node by node, exactly, along the pair's normal.
   void
@@ -110,20 +130,11 @@ namespace akmon
     x_reached        = x;
     for (unsigned int i = 0; i < nodes.first_common(); ++i)
       x_reached.add(i, dx_free[i]);
-    ContactNodes::Field force;
-    nodes.make(force);
-    std::vector<ContactPair *> active;
-    for (auto &pair : pairs)
-      if (pair.normal_force > 0.)
-        active.push_back(&pair);
-    NodalSums(nodes).add(
-      active,
-      [&](const std::size_t i, const unsigned int k) {
-        return active[i]->at_node(k, active[i]->force());
-      },
-      force);
-    for (unsigned int i = 0; i < nodes.n_owned(); ++i)
-      x_reached.add(i, mobility[i] * force[i] / effective_mass_factor);
+    if (solver.type == ContactSolver::Type::coupled)
+      for (unsigned int i = 0; i < nodes.n_owned(); ++i)
+        x_reached.add(i, coupled->increments()[i]);
+    else
+      add_response(effective_mass_factor, x_reached);
 
     for (unsigned int round = 0; round < most_rounds; ++round)
       {
@@ -134,7 +145,7 @@ namespace akmon
             double reached;
             reached_gap(*pair, poses, reached);
             const double lacking = std::min(0., pair->gap + release(*pair, state)) - reached;
-            const auto response  = mobility[node] * pair->normal / effective_mass_factor;
+            const auto response  = mobility.times(pair->normal, node) / effective_mass_factor;
             const double along   = pair->normal * response;
             if (!(lacking > 1e-16 * (pair->size + x_reached[node].norm())) || !(along > 0.))
               continue;
@@ -223,14 +234,21 @@ namespace akmon
     contributions.clear();
     for (const auto &pair : pairs)
       if (pair.normal_force > 0.)
-        for (unsigned int k = 0; k < pair.n_nodes; ++k)
-          if (pair.nodes[k] < nodes.first_common())
-            contributions.push_back({nodes.id(pair.nodes[k]),
-                                     pair.interface,
-                                     pair.slave_id,
-                                     pair.at_node(k, pair.normal_force * pair.normal),
-                                     pair.at_node(k, pair.tangential_force),
-                                     pair.sticks});
+        {
+          const auto normal = pair.normal_force * pair.normal;
+          const auto turn = pair.turn(normal), tangential_turn = pair.turn(pair.tangential_force);
+          for (unsigned int k = 0; k < pair.n_nodes; ++k)
+            if (pair.nodes[k] < nodes.first_common())
+              {
+                auto &contribution      = contributions.emplace_back();
+                contribution.node       = nodes.id(pair.nodes[k]);
+                contribution.interface  = pair.interface;
+                contribution.slave      = pair.slave_id;
+                contribution.normal     = pair.at_node(k, normal, turn);
+                contribution.tangential = pair.at_node(k, pair.tangential_force, tangential_turn);
+                contribution.sticks     = pair.sticks;
+              }
+        }
     nodes.send_to_owners(contributions);
 
     forces.clear();

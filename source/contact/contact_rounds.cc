@@ -221,6 +221,14 @@ namespace akmon
   }
 
 
+  void
+  Contact::prefetch(const ContactPair &pair) const
+  {
+    if (!pair.of_edges && pair.interface < contacts.size())
+      searches[pair.search].prefetch(pair);
+  }
+
+
   // While segments turn under a slave, surfaces are curved or bodies rotate, n . G dx + g misses a
   // part of second order of the gap that the step reaches. Measures it for all pairs that may
   // close, or for those that the last solution has moved otherwise than the one before; returns how
@@ -242,9 +250,13 @@ namespace akmon
                          [&](const auto node) { return dx_contact[node] != dx_followed[node]; });
     };
 
-    double largest = 0.;
-    for (ContactPair *const pair : coupled->participants())
+    double largest      = 0.;
+    const auto &visited = coupled->participants();
+    for (std::size_t i = 0; i < visited.size(); ++i)
       {
+        ContactPair *const pair = visited[i];
+        if (i + SurfaceSearch::prefetched < visited.size())
+          prefetch(*visited[i + SurfaceSearch::prefetched]);
         if (round > 1 && !moves_anew(*pair))
           continue;
         const auto motion = pair->relative(dx_reached);

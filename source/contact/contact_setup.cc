@@ -17,6 +17,16 @@ namespace akmon
 
   namespace
   {
+    std::vector<double>
+    wave_speeds_of_bodies(const Discretization &discretization)
+    {
+      std::vector<double> speeds;
+      for (unsigned int body = 0; body < discretization.get_bodies().size(); ++body)
+        speeds.push_back(discretization.material_of(body).dilatational_wave_speed());
+      return speeds;
+    }
+
+
     std::vector<SurfaceSearch>
     make_searches(const Discretization &discretization,
                   const ContactSolver &solver,
@@ -162,6 +172,7 @@ namespace akmon
         make_feature_searches(discretization, solver, bodies, obstacle_searches, contacts.size()))
     , rigid_touches(make_rigid_touches(bodies, contacts.size()))
     , rigid_nodes(bodies)
+    , wave_speeds(wave_speeds_of_bodies(discretization))
     , surface_nodes(owned_nodes(discretization, searches, obstacle_searches))
     , areas(discretization.n_owned_nodes, contact_faces())
     , nodes(discretization, surface_nodes, rigid_nodes.n)

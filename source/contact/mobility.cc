@@ -21,14 +21,17 @@ namespace akmon
       }
     nodes.update_ghosts(diagonal);
     nodes.update_ghosts(off_diagonal);
-    first_common = nodes.first_common();
-    W.resize(nodes.size());
+    reinit(nodes.size(), nodes.first_common());
     for (unsigned int i = 0; i < first_common; ++i)
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          W[i][d][d]                     = diagonal[i][d];
-          W[i][(d + 1) % 3][(d + 2) % 3] = off_diagonal[i][d];
-        }
+      {
+        SymmetricTensor<2, 3> W_i;
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            W_i[d][d]                     = diagonal[i][d];
+            W_i[(d + 1) % 3][(d + 2) % 3] = off_diagonal[i][d];
+          }
+        set(i, W_i);
+      }
   }
 
 
@@ -37,11 +40,12 @@ namespace akmon
                   const Tensor<1, 3> &direction,
                   const double mass_factor) const
   {
-    double sum = 0.;
+    const auto turn = pair.turn(direction);
+    double sum      = 0.;
     for (unsigned int k = 0; k < pair.n_nodes; ++k)
       {
-        const auto force = pair.at_node(k, direction);
-        sum += force * (W[pair.nodes[k]] * force);
+        const auto force = pair.at_node(k, direction, turn);
+        sum += force * times(force, pair.nodes[k]);
       }
     return sum / mass_factor;
   }

@@ -68,7 +68,7 @@ namespace delassus_test
       for (const ContactPair &pair : pairs)
         {
           ClosingPair closing{};
-          closing.pair = pair;
+          closing.pair = &pair;
           for (unsigned int k = 0; k < pair.n_nodes; ++k)
             {
               closing.ids[k]      = nodes.id_or_common(pair.nodes[k]);

@@ -13,19 +13,18 @@ namespace matrix_factor_test
   {
     double diagonal, left, right;
 
-    // The entries on the diagonal in two parts.
-    MatrixFactor::Entries
-    entries(const unsigned int n, const bool lower_only = false) const
+    // What is above the diagonal does not count in a symmetric matrix.
+    Eigen::MatrixXd
+    matrix(const unsigned int n, const bool lower_only = false) const
     {
-      MatrixFactor::Entries result;
+      Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
       for (unsigned int i = 0; i < n; ++i)
         {
-          result.emplace_back(i, i, diagonal - 1.);
-          result.emplace_back(i, i, 1.);
+          result(i, i) = diagonal;
           if (i > 0)
-            result.emplace_back(i, i - 1, left);
-          if (i + 1 < n && !lower_only)
-            result.emplace_back(i, i + 1, right);
+            result(i, i - 1) = left;
+          if (i + 1 < n)
+            result(i, i + 1) = lower_only ? 7. : right;
         }
       return result;
     }
@@ -57,15 +56,15 @@ namespace matrix_factor_test
 
   TEST_P(Rows, of_a_symmetric_matrix)
   {
-    ASSERT_TRUE(factor.compute(n, second_difference.entries(n, true), true));
+    ASSERT_TRUE(factor.compute(second_difference.matrix(n, true), true));
     expect_solution(factor, second_difference);
   }
 
 
   TEST_P(Rows, tell_of_an_indefinite_matrix)
   {
-    EXPECT_FALSE(factor.compute(n, indefinite.entries(n, true), true));
-    ASSERT_TRUE(factor.compute(n, second_difference.entries(n, true), true)); // and serve again
+    EXPECT_FALSE(factor.compute(indefinite.matrix(n, true), true));
+    ASSERT_TRUE(factor.compute(second_difference.matrix(n, true), true)); // and serve again
     expect_solution(factor, second_difference);
   }
 
@@ -75,7 +74,7 @@ namespace matrix_factor_test
   {
     for (const Chain &chain : {Chain{2.5, -1.7, 0.3}, Chain{0.5, -1.5, 1.5}})
       {
-        ASSERT_TRUE(factor.compute(n, chain.entries(n), false));
+        ASSERT_TRUE(factor.compute(chain.matrix(n), false));
         expect_solution(factor, chain);
       }
   }
@@ -84,16 +83,13 @@ namespace matrix_factor_test
   TEST_P(Rows, tell_of_a_singular_matrix)
   {
     const Chain chain{2.5, -1.7, 0.3};
-    auto entries = chain.entries(n);
-    for (auto &entry : entries)
-      if (entry.row() == 2)
-        entry = {2, entry.col(), 0.};
-    EXPECT_FALSE(factor.compute(n, entries, false));
-    ASSERT_TRUE(factor.compute(n, chain.entries(n), false)); // and serve again
+    auto matrix = chain.matrix(n);
+    matrix.row(2).setZero();
+    EXPECT_FALSE(factor.compute(matrix, false));
+    ASSERT_TRUE(factor.compute(chain.matrix(n), false)); // and serve again
     expect_solution(factor, chain);
   }
 
 
-  // Full and sparse.
-  INSTANTIATE_TEST_SUITE_P(Matrix, Rows, testing::Values(5u, 170u, 171u, 1000u));
+  INSTANTIATE_TEST_SUITE_P(Matrix, Rows, testing::Values(5u, 96u));
 } // namespace matrix_factor_test

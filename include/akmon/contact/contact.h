@@ -253,6 +253,8 @@ namespace akmon
     follow_partners(const NodalState &state,
                     const std::vector<Pose> &poses,
                     const unsigned int round);
+    void
+    prefetch(const ContactPair &pair) const;
     double
     gap_tolerance(const ContactPair &pair, const bool late) const;
     static void
@@ -263,6 +265,8 @@ namespace akmon
     reached_gap(ContactPair &pair, const std::vector<Pose> &poses, double &gap) const;
     void
     push_out(const NodalState &state, const double effective_mass_factor);
+    void
+    add_response(const double effective_mass_factor, ContactNodes::Field &field);
     template <typename Visit>
     void
     visit_rigid_loads(const Visit &visit) const;
@@ -298,6 +302,7 @@ namespace akmon
     std::vector<FeatureSearch> feature_searches;   ///< one per body, or none
     std::vector<RigidTouch> rigid_touches;         ///< of bodies that may meet
     const RigidNodes rigid_nodes;
+    const std::vector<double> wave_speeds; ///< dilatational, by body; length/time
     std::vector<unsigned int> surface_nodes;
     const NodalAreas areas;
     ContactNodes nodes;

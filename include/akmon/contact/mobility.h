@@ -28,6 +28,7 @@ namespace akmon
     reinit(const unsigned int n_nodes, const unsigned int new_first_common)
     {
       W.resize(n_nodes);
+      scalars.resize(n_nodes);
       first_common = new_first_common;
     }
 
@@ -42,7 +43,8 @@ namespace akmon
     void
     set(const unsigned int number, const dealii::SymmetricTensor<2, 3> &mobility)
     {
-      W[number] = mobility;
+      W[number]       = mobility;
+      scalars[number] = trace(mobility) == 0. ? 0. : is_scalar(mobility) ? mobility[0][0] : neither;
     }
 
     /// Whether a node is common to all ranks, that is, of a rigid body.
@@ -56,13 +58,25 @@ namespace akmon
     bool
     is_held(const unsigned int number) const
     {
-      return trace(W[number]) == 0.;
+      return scalars[number] == 0.;
     }
 
-    const dealii::SymmetricTensor<2, 3> &
+    dealii::SymmetricTensor<2, 3>
     operator[](const unsigned int number) const
     {
-      return W[number];
+      if (scalars[number] == neither)
+        return W[number];
+      dealii::SymmetricTensor<2, 3> result;
+      for (unsigned int d = 0; d < 3; ++d)
+        result[d][d] = scalars[number];
+      return result;
+    }
+
+    /// W f
+    dealii::Tensor<1, 3>
+    times(const dealii::Tensor<1, 3> &f, const unsigned int number) const
+    {
+      return scalars[number] == neither ? W[number] * f : scalars[number] * f;
     }
 
     /// The largest principal value of W: 1/m of a node that can move at all, else zero. An upper
@@ -81,9 +95,7 @@ namespace akmon
     bool
     is_free(const unsigned int number) const
     {
-      const auto &W_i = W[number];
-      return W_i[0][0] > 0. && W_i[0][0] == W_i[1][1] && W_i[1][1] == W_i[2][2] &&
-             W_i[0][1] == 0. && W_i[0][2] == 0. && W_i[1][2] == 0.;
+      return scalars[number] > 0.;
     }
 
     /// Whether what a node moves by along a normal is not coupled with the rest: the normal is
@@ -91,7 +103,7 @@ namespace akmon
     bool
     is_free_along(const unsigned int number, const dealii::Tensor<1, 3> &normal) const
     {
-      const auto moved = W[number] * normal;
+      const auto moved = times(normal, number);
       const double w_n = normal * moved;
       return w_n > 0. && (moved - w_n * normal).norm() <= 1e-14 * w_n;
     }
@@ -109,7 +121,19 @@ namespace akmon
           const double mass_factor) const;
 
   private:
+    static constexpr double neither = -1.;
+
+    static bool
+    is_scalar(const dealii::SymmetricTensor<2, 3> &W_i)
+    {
+      return W_i[0][0] > 0. && W_i[0][0] == W_i[1][1] && W_i[1][1] == W_i[2][2] &&
+             W_i[0][1] == 0. && W_i[0][2] == 0. && W_i[1][2] == 0.;
+    }
+
     std::vector<dealii::SymmetricTensor<2, 3>> W; ///< by contact number
+    // Nearly all nodes are free, and memory is what their access costs: 1/m of these, zero of those
+    // that are held.
+    std::vector<double> scalars;
     unsigned int first_common = 0;
   };
 } // namespace akmon

@@ -158,11 +158,27 @@ namespace akmon
     dealii::Tensor<1, 3>
     at_node(const unsigned int k, const dealii::Tensor<1, 3> &t) const
     {
+      return at_node(k, t, turn(t));
+    }
+
+    /// The same with turn(t), which is the same for all nodes.
+    dealii::Tensor<1, 3>
+    at_node(const unsigned int k,
+            const dealii::Tensor<1, 3> &t,
+            const dealii::Tensor<1, 3> &turn) const
+    {
       if (k >= n_points())
         return weights[k] * cross_product_3d(radii[k - n_points()], t);
       if (levered)
-        return weights[k] * t + cross_product_3d(t * lever, arms[k]);
+        return weights[k] * t + cross_product_3d(turn, arms[k]);
       return weights[k] * t;
+    }
+
+    /// What the couple of t and -t at the ends of the gap turns the partner by.
+    dealii::Tensor<1, 3>
+    turn(const dealii::Tensor<1, 3> &t) const
+    {
+      return levered ? t * lever : dealii::Tensor<1, 3>();
     }
 
     /// A bound of the norm of the part of G^T t at the pair's node number k for unit forces t.
@@ -178,8 +194,9 @@ namespace akmon
     void
     distribute(const dealii::Tensor<1, 3> &t, ContactNodes::Field &f) const
     {
+      const auto turn_of_t = turn(t);
       for (unsigned int k = 0; k < n_nodes; ++k)
-        f.add(nodes[k], at_node(k, t));
+        f.add(nodes[k], at_node(k, t, turn_of_t));
     }
 
     /// The part of a vector in the contact plane, P_tau v.

@@ -39,7 +39,7 @@ namespace akmon
     solved_gaps.clear();
     for (std::size_t i = 0; i < members.size(); ++i)
       {
-        const ContactPair &pair = members[i]->pair;
+        const ContactPair &pair = *members[i]->pair;
         const double s          = delassus.scale()[i];
         problem.friction.push_back(members[i]->friction);
         problem.weights.push_back(s > 0. ? 1. / (s * pair.size) : 0.);
@@ -53,7 +53,7 @@ namespace akmon
   {
     ids.clear();
     for (const ClosingPair *const member : members)
-      ids.insert(ids.end(), member->ids.begin(), member->ids.begin() + member->pair.n_nodes);
+      ids.insert(ids.end(), member->ids.begin(), member->ids.begin() + member->pair->n_nodes);
     std::sort(ids.begin(), ids.end());
     ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
     const auto number = [&](const ContactNodes::Id id) {
@@ -63,8 +63,8 @@ namespace akmon
     pairs.clear();
     for (const ClosingPair *const member : members)
       {
-        pairs.push_back(member->pair);
-        for (unsigned int k = 0; k < member->pair.n_nodes; ++k)
+        pairs.push_back(*member->pair);
+        for (unsigned int k = 0; k < member->pair->n_nodes; ++k)
           {
             const unsigned int node = number(member->ids[k]);
             pairs.back().nodes[k]   = node;
@@ -82,7 +82,7 @@ namespace akmon
                       members.begin(),
                       members.end(),
                       [](const double gap, const ClosingPair *const member) {
-                        return gap == member->pair.target_gap;
+                        return gap == member->pair->target_gap;
                       });
   }
 
@@ -104,7 +104,7 @@ namespace akmon
     const auto &s = delassus.scale();
     for (std::size_t i = 0; i < members.size(); ++i)
       {
-        solved_gaps[i] = members[i]->pair.target_gap;
+        solved_gaps[i] = members[i]->pair->target_gap;
         problem.b[i]   = s[i] * (delassus.frame(i) * members[i]->free_motion);
         problem.b[i][0] += s[i] * solved_gaps[i];
       }

@@ -26,19 +26,23 @@ namespace akmon
   ContactResponse::update()
   {
     loaded.clear();
+    loads.clear();
     for (ContactPair *const pair : pairs)
       if (pair->normal_force > 0.)
-        loaded.push_back(pair);
+        {
+          loaded.push_back(pair);
+          loads.push_back({pair->force(), pair->turn(pair->force())});
+        }
     nodes.make(field);
     sums.add(
       loaded,
       [&](const std::size_t i, const unsigned int k) {
-        return loaded[i]->at_node(k, loaded[i]->force());
+        return loaded[i]->at_node(k, loads[i].force, loads[i].turn);
       },
       field);
     const auto to_increment = [&](const unsigned int number) {
       if (const auto force = field[number]; force != dealii::Tensor<1, 3>()) // few nodes have one
-        field.set(number, mobility[number] * force / mass_factor);
+        field.set(number, mobility.times(force, number) / mass_factor);
     };
     for (unsigned int number = 0; number < nodes.n_owned(); ++number)
       to_increment(number);

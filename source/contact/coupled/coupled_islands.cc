@@ -21,18 +21,15 @@ namespace akmon
                        const std::size_t n_nodes,
                        const VisitNodes &visit_nodes)
   {
-    last_at.resize(std::max(last_at.size(), n_nodes + 1), numbers::invalid_unsigned_int);
+    last_at.resize(std::max(last_at.size(), n_nodes + 1));
+    ++n_divisions; // there are far more nodes than pairs: none is put back
     UnitedSets sets(n_pairs);
     for (unsigned int i = 0; i < n_pairs; ++i)
       visit_nodes(i, [&](const std::size_t node) {
-        if (last_at[node] != numbers::invalid_unsigned_int)
-          sets.unite(last_at[node], i);
-        last_at[node] = i;
+        if (last_at[node].division == n_divisions)
+          sets.unite(last_at[node].pair, i);
+        last_at[node] = {n_divisions, i};
       });
-    // There are far more nodes than pairs: only these are put back.
-    for (unsigned int i = 0; i < n_pairs; ++i)
-      visit_nodes(i,
-                  [&](const std::size_t node) { last_at[node] = numbers::invalid_unsigned_int; });
     return sets;
   }
 
@@ -53,7 +50,7 @@ namespace akmon
   void
   CoupledSolver::divide_into_islands(const ContactNodes::Field &dx_free)
   {
-    old_islands = std::move(islands);
+    std::swap(old_islands, islands);
     islands.clear();
     lone.clear();
     collect_own_pairs();
@@ -104,7 +101,7 @@ namespace akmon
     const auto is_shared = [&](const unsigned int i) {
       bool any = false;
       visit_nodes(i, [&](const unsigned int node) {
-        any = any || (node < nodes.n_owned() ? met_by_others[node] : nodes.is_parallel());
+        any = any || node >= nodes.n_owned() || met_by_others[node];
       });
       return any;
     };
@@ -112,12 +109,15 @@ namespace akmon
     shared.clear();
     closing.clear();
     closing.reserve(own.size()); // members are referred to
-    for (const auto &list : unite(own.size(), of_bonds, visit_nodes).lists())
-      if (const unsigned int first = list.front(); std::any_of(list.begin(), list.end(), is_shared))
+    const auto lists = unite(own.size(), of_bonds, visit_nodes).lists();
+    auto old_island  = old_islands.begin();
+    for (std::size_t l = 0; l < lists.size(); ++l)
+      if (const auto list = lists[l];
+          nodes.is_parallel() && std::any_of(list.begin(), list.end(), is_shared))
         for (const unsigned int i : list)
           append_closing_pair(own[i], bonded[i], dx_free, shared);
-      else if (list.size() == 1 && !bonded[first] && mobility.moves_alike(*all[own[first]]))
-        lone.push_back(own[first]);
+      else if (list.size() == 1 && !bonded[list[0]] && mobility.moves_alike(*all[own[list[0]]]))
+        lone.push_back(own[list[0]]);
       else
         {
           members.clear();
@@ -126,7 +126,7 @@ namespace akmon
               append_closing_pair(own[i], bonded[i], dx_free, closing);
               members.push_back(&closing.back());
             }
-          make_island();
+          make_island(old_island);
         }
   }
 
@@ -138,18 +138,17 @@ namespace akmon
                                      std::vector<ClosingPair> &pairs) const
   {
     const ContactPair &pair = *all[number];
-    pairs.push_back({pair,
-                     {},
-                     {},
-                     friction_of_all[number],
-                     pair.relative(dx_free),
-                     bonded,
-                     Utilities::MPI::this_mpi_process(nodes.get_communicator()),
-                     number});
+    ClosingPair &closing    = pairs.emplace_back();
+    closing.pair            = &pair;
+    closing.friction        = friction_of_all[number];
+    closing.free_motion     = pair.relative(dx_free);
+    closing.is_bonded       = bonded;
+    closing.rank            = rank;
+    closing.number          = number;
     for (unsigned int k = 0; k < pair.n_nodes; ++k)
       {
-        pairs.back().ids[k]      = nodes.id_or_common(pair.nodes[k]);
-        pairs.back().mobility[k] = mobility[pair.nodes[k]];
+        closing.ids[k]      = nodes.id_or_common(pair.nodes[k]);
+        closing.mobility[k] = mobility[pair.nodes[k]];
       }
   }
 
@@ -158,8 +157,12 @@ namespace akmon
   void
   CoupledSolver::divide_shared_pairs()
   {
-    const unsigned int rank = Utilities::MPI::this_mpi_process(nodes.get_communicator());
-    of_all_ranks            = gather(shared, nodes.get_communicator());
+    to_send.clear();
+    for (const ClosingPair &own : shared)
+      to_send.push_back({*own.pair, own});
+    of_all_ranks = gather(to_send, nodes.get_communicator());
+    for (SentPair &pair : of_all_ranks)
+      pair.closing.pair = &pair.pair;
     order.resize(of_all_ranks.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
@@ -168,16 +171,19 @@ namespace akmon
 
     const ContactNodes::Id of_bonds = nodes.first_common_id() + nodes.size() - nodes.first_common();
     const auto visit_nodes          = [&](const unsigned int i, const auto &visit) {
-      const ClosingPair &pair = of_all_ranks[order[i]];
-      for (unsigned int k = 0; k < pair.pair.n_nodes; ++k)
+      const ClosingPair &pair = of_all_ranks[order[i]].closing;
+      for (unsigned int k = 0; k < pair.pair->n_nodes; ++k)
         if (trace(pair.mobility[k]) > 0.)
           visit(pair.ids[k]);
       if (pair.is_bonded)
         visit(of_bonds);
     };
-    for (const auto &list : unite(order.size(), of_bonds, visit_nodes).lists())
+    const auto lists = unite(order.size(), of_bonds, visit_nodes).lists();
+    auto old_island  = old_islands.begin();
+    for (std::size_t l = 0; l < lists.size(); ++l)
       {
-        const ClosingPair &first = of_all_ranks[order[list.front()]];
+        const auto list          = lists[l];
+        const ClosingPair &first = of_all_ranks[order[list[0]]].closing;
         if (first.rank != rank)
           continue;
         if (list.size() == 1 && !first.is_bonded && mobility.moves_alike(*all[first.number]))
@@ -187,21 +193,27 @@ namespace akmon
           }
         members.clear();
         for (const unsigned int i : list)
-          members.push_back(&of_all_ranks[order[i]]);
-        make_island();
+          members.push_back(&of_all_ranks[order[i]].closing);
+        make_island(old_island);
       }
+    std::sort(islands.begin(), islands.end(), [](const auto &a, const auto &b) {
+      return a->key < b->key;
+    });
   }
 
 
   // Of the members, sorted by key. Moved as it was in the last step, which asks for no memory.
+  // @param old  from where to look for it among the old islands: keys of islands rise
   void
-  CoupledSolver::make_island()
+  CoupledSolver::make_island(std::vector<std::unique_ptr<Island>>::iterator &old)
   {
-    const Key key = members.front()->pair.key();
-    auto known    = old_islands.extract(key);
-    auto &island  = (known ? islands.insert(std::move(known)).position :
-                             islands.emplace(key, std::make_unique<Island>()).first)
-                     ->second;
+    const Key key = members.front()->pair->key();
+    while (old != old_islands.end() && (!*old || (*old)->key < key))
+      ++old;
+    const bool is_known = old != old_islands.end() && (*old)->key == key;
+    islands.push_back(is_known ? std::move(*old) : std::make_unique<Island>());
+    const auto &island = islands.back();
+    island->key        = key;
     const bool is_same = island->of_this_step && // pairs only join during a step
                          island->get_members().size() == members.size();
     island->set_members(members);
@@ -215,12 +227,10 @@ namespace akmon
   }
 
 
-  // All else is as it was when the islands were made.
+  // Of pairs that have been sent; all else is as it was when the islands were made.
   void
   CoupledSolver::take_target_gaps()
   {
-    for (ClosingPair &own : closing)
-      own.pair.target_gap = all[own.number]->target_gap;
     if (!nodes.is_parallel() || of_all_ranks.empty())
       return;
     gaps.clear();
@@ -235,9 +245,7 @@ namespace akmon
   void
   CoupledSolver::bring_forces_home()
   {
-    const MPI_Comm communicator = nodes.get_communicator();
-    const unsigned int rank     = Utilities::MPI::this_mpi_process(communicator);
-    const auto take             = [&](const unsigned int number, const PairForce &force) {
+    const auto take = [&](const unsigned int number, const PairForce &force) {
       ContactPair &pair     = *all[number];
       pair.normal_force     = force.normal;
       pair.tangential_force = force.tangential;
@@ -245,7 +253,7 @@ namespace akmon
     };
 
     solved.clear();
-    for (const auto &[key, island] : islands)
+    for (const auto &island : islands)
       for (std::size_t i = 0; i < island->get_members().size() && island->is_new; ++i)
         {
           const ClosingPair &member = *island->get_members()[i];
@@ -257,7 +265,7 @@ namespace akmon
         }
     if (!nodes.is_parallel() || of_all_ranks.empty())
       return;
-    for (const Solved &of_pair : gather(solved, communicator))
+    for (const Solved &of_pair : gather(solved, nodes.get_communicator()))
       if (of_pair.rank == rank)
         take(of_pair.number, of_pair.force);
   }

@@ -37,6 +37,7 @@ namespace akmon
     , nodes(nodes)
     , mobility(mobility)
     , bonds(bonds)
+    , rank(Utilities::MPI::this_mpi_process(nodes.get_communicator()))
     , response(nodes, mobility, bonds)
   {
   }
@@ -96,7 +97,7 @@ namespace akmon
     choose_participants(pairs, dx_free, friction_of_pairs);
     response.reinit(all, mass_factor);
     has_begun = false;
-    for (auto &[key, island] : islands)
+    for (const auto &island : islands)
       island->of_this_step = false;
   }
 
@@ -197,7 +198,7 @@ namespace akmon
     {
       const WorkTime timing(seconds_of_work);
       small.clear();
-      for (auto &[key, island] : islands)
+      for (const auto &island : islands)
         {
           island->is_new = !island->is_solved();
           if (!island->is_new)
@@ -240,7 +241,7 @@ namespace akmon
   CoupledSolver::count_solutions()
   {
     std::vector<double> sums(2, 0.), worst(2, 0.);
-    for (const auto &[key, island] : islands)
+    for (const auto &island : islands)
       {
         const double n = island->get_members().size();
         sums[1] += n;

@@ -69,8 +69,8 @@ namespace akmon
     for (std::size_t i = 0; i < members.size(); ++i)
       for (std::size_t j = 0; j <= i; ++j)
         {
-          Eigen::Matrix3d block = Eigen::Matrix3d::Zero();
-          bool any              = false;
+          double block[3][3] = {}; // by column
+          bool any           = false;
           for (unsigned int k = begins[i]; k < begins[i + 1]; ++k)
             for (unsigned int l = begins[j]; l < begins[j + 1]; ++l)
               if (columns[k].node == columns[l].node)
@@ -78,12 +78,13 @@ namespace akmon
                   any = true;
                   for (unsigned int c = 0; c < 3; ++c)
                     for (unsigned int r = 0; r < 3; ++r)
-                      block(r, c) += columns[k].force[r] * columns[l].increment[c];
+                      block[c][r] += columns[k].force[r] * columns[l].increment[c];
                 }
           if (!any)
             continue;
-          assembled.block<3, 3>(3 * i, 3 * j) = block;
-          assembled.block<3, 3>(3 * j, 3 * i) = block.transpose();
+          for (unsigned int c = 0; c < 3; ++c)
+            for (unsigned int r = 0; r < 3; ++r)
+              assembled(3 * i + r, 3 * j + c) = assembled(3 * j + c, 3 * i + r) = block[c][r];
         }
   }
 
@@ -92,20 +93,24 @@ namespace akmon
   void
   Delassus::collect_columns(const ClosingPair &member)
   {
-    const ContactPair &pair = member.pair;
-    frames.push_back(frame_of(pair.normal));
-    double A_ii = 0.;
+    const ContactPair &pair = *member.pair;
+    const auto frame        = frame_of(pair.normal);
+    frames.push_back(frame);
+    const std::array<Tensor<1, 3>, 3> turns{
+      {pair.turn(frame[0]), pair.turn(frame[1]), pair.turn(frame[2])}};
+    const double inverse_factor = 1. / mass_factor;
+    double A_ii                 = 0.;
     for (unsigned int k = 0; k < pair.n_nodes; ++k)
       if (trace(member.mobility[k]) > 0.) // else it is held
         {
-          Column column{member.ids[k], {}, {}};
+          Column &column = columns.emplace_back(); // a copy would wait for what was stored
+          column.node    = member.ids[k];
           for (unsigned int d = 0; d < 3; ++d)
             {
-              column.force[d]     = pair.at_node(k, frames.back()[d]);
-              column.increment[d] = member.mobility[k] * column.force[d] / mass_factor;
+              column.force[d]     = pair.at_node(k, frame[d], turns[d]);
+              column.increment[d] = inverse_factor * (member.mobility[k] * column.force[d]);
             }
           A_ii += column.force[0] * column.increment[0];
-          columns.push_back(column);
         }
     scales.push_back(A_ii > 0. ? 1. / std::sqrt(A_ii) : 0.);
     for (auto column = columns.begin() + begins.back(); column != columns.end(); ++column)
@@ -159,7 +164,7 @@ namespace akmon
     for (std::size_t i = 0; i < pairs->size(); ++i)
       (*pairs)[i].distribute(scales[i] * (tau[i] * frames[i]), field);
     for (unsigned int node = 0; node < mobility->size(); ++node)
-      field.set(node, (*mobility)[node] * field[node] / mass_factor);
+      field.set(node, mobility->times(field[node], node) / mass_factor);
     if (bonds)
       bonds->project(*ids, field);
     for (std::size_t i = 0; i < pairs->size(); ++i)

@@ -2,61 +2,15 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 
 namespace akmon
 {
   struct MatrixFactor::Factors
   {
-    enum class Kind
-    {
-      cholesky,
-      lu,
-      sparse_cholesky,
-      sparse_lu
-    };
-
-    Kind kind = Kind::cholesky;
-    Eigen::MatrixXd matrix;
+    bool is_symmetric = true;
     Eigen::VectorXd permuted;
     Eigen::LLT<Eigen::MatrixXd> cholesky;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu;
-    Eigen::SimplicialLLT<Eigen::SparseMatrix<double>> sparse_cholesky;
-    Eigen::SparseLU<Eigen::SparseMatrix<double>> sparse_lu;
-
-    bool
-    compute_sparse(const unsigned int n, const Entries &entries, const bool symmetric)
-    {
-      Eigen::SparseMatrix<double> sparse_matrix(n, n);
-      sparse_matrix.setFromTriplets(entries.begin(), entries.end());
-      kind = symmetric ? Kind::sparse_cholesky : Kind::sparse_lu;
-      if (symmetric)
-        return sparse_cholesky.compute(sparse_matrix).info() == Eigen::Success;
-      sparse_lu.compute(sparse_matrix);
-      return sparse_lu.info() == Eigen::Success;
-    }
-
-    void
-    add_up(const unsigned int n, const Entries &entries)
-    {
-      matrix.setZero(n, n);
-      for (const auto &entry : entries)
-        matrix(entry.row(), entry.col()) += entry.value();
-    }
-
-    bool
-    compute_full(const Eigen::MatrixXd &matrix, const bool symmetric)
-    {
-      constexpr double rounding = 1e-15;
-
-      kind = symmetric ? Kind::cholesky : Kind::lu;
-      if (symmetric)
-        return cholesky.compute(matrix).info() == Eigen::Success;
-      lu.compute(matrix);
-      const auto pivots = lu.matrixLU().diagonal().cwiseAbs();
-      return pivots.minCoeff() > rounding * pivots.maxCoeff();
-    }
   };
 
 
@@ -70,44 +24,30 @@ namespace akmon
 
 
   bool
-  MatrixFactor::compute(const unsigned int n, const Entries &entries, const bool symmetric)
-  {
-    constexpr unsigned int most_full = 170; // rows
-
-    if (n > most_full)
-      return factors->compute_sparse(n, entries, symmetric);
-    factors->add_up(n, entries);
-    return factors->compute_full(factors->matrix, symmetric);
-  }
-
-
-  bool
   MatrixFactor::compute(const Eigen::MatrixXd &matrix, const bool symmetric)
   {
-    return factors->compute_full(matrix, symmetric);
+    constexpr double rounding = 1e-15;
+
+    factors->is_symmetric = symmetric;
+    if (symmetric)
+      return factors->cholesky.compute(matrix).info() == Eigen::Success;
+    factors->lu.compute(matrix);
+    const auto pivots = factors->lu.matrixLU().diagonal().cwiseAbs();
+    return pivots.minCoeff() > rounding * pivots.maxCoeff();
   }
 
 
   void
   MatrixFactor::solve_in_place(Eigen::VectorXd &values) const
   {
-    switch (factors->kind)
+    if (factors->is_symmetric)
       {
-        case Factors::Kind::cholesky:
-          factors->cholesky.solveInPlace(values);
-          break;
-        case Factors::Kind::lu:
-          factors->permuted.noalias() = factors->lu.permutationP() * values;
-          factors->lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(factors->permuted);
-          factors->lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(factors->permuted);
-          values.swap(factors->permuted);
-          break;
-        case Factors::Kind::sparse_cholesky:
-          values = factors->sparse_cholesky.solve(values).eval();
-          break;
-        case Factors::Kind::sparse_lu:
-          values = factors->sparse_lu.solve(values).eval();
-          break;
+        factors->cholesky.solveInPlace(values);
+        return;
       }
+    factors->permuted.noalias() = factors->lu.permutationP() * values;
+    factors->lu.matrixLU().triangularView<Eigen::UnitLower>().solveInPlace(factors->permuted);
+    factors->lu.matrixLU().triangularView<Eigen::Upper>().solveInPlace(factors->permuted);
+    values.swap(factors->permuted);
   }
 } // namespace akmon

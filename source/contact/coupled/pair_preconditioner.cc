@@ -99,7 +99,9 @@ namespace akmon
               groups.back()->members[m].pair = list[m];
             continue;
           }
-        groups.push_back(std::make_unique<Group>());
+        const bool has_storage = old != old_groups.end() && old->second;
+        groups.push_back(has_storage ? std::move(old->second) : std::make_unique<Group>());
+        groups.back()->clear();
         make_group(list, faces, *groups.back());
       }
   }
@@ -144,11 +146,12 @@ namespace akmon
               last_at_node[node] = c;
             }
       }
-    auto lists = sets.lists();
-    for (auto &list : lists)
-      for (unsigned int &c : list)
-        c = closed[c];
-    return lists;
+    const auto lists = sets.lists();
+    std::vector<std::vector<unsigned int>> of_pairs(lists.size());
+    for (std::size_t l = 0; l < lists.size(); ++l)
+      for (const unsigned int c : lists[l])
+        of_pairs[l].push_back(closed[c]);
+    return of_pairs;
   }
 
 
@@ -220,7 +223,7 @@ namespace akmon
               }
           jacobian(of_column.row + j, of_column.row + j) += shift + of_column.curvature_along(j);
         }
-    group.valid = group.n_rows > 0 && group.factor.compute(jacobian, is_symmetric(group));
+    group.valid = group.n_rows > 0 && group.full.compute(jacobian, is_symmetric(group));
   }
 
 
@@ -228,58 +231,99 @@ namespace akmon
   PairPreconditioner::collect_entries(const Group &group)
   {
     entries.clear();
-    for (const Member &member : group.members)
+    for (unsigned int m = 0; m < group.members.size(); ++m)
       {
+        const Member &member    = group.members[m];
         const ContactPair &pair = (*pairs)[member.pair];
         const auto in_axes      = [&](const Tensor<1, 3> &v) {
           return delassus->scale()[member.pair] * (v * delassus->frame(member.pair));
         };
+        std::array<Tensor<1, 3>, 3> along, forces;
         for (unsigned int j = 0; j < member.directions.n; ++j)
           {
-            const auto &e    = member.directions.e[j];
-            const auto along = in_axes(e), force = in_axes(member.face.lift(e));
-            for (unsigned int k = 0; k < pair.n_nodes; ++k)
-              if (const unsigned int node = pair.nodes[k]; !mobility->is_held(node))
-                entries.push_back({node,
-                                   member.row + j,
-                                   pair.at_node(k, force),
-                                   (*mobility)[node] * pair.at_node(k, along) / mass_factor});
+            along[j]  = in_axes(member.directions.e[j]);
+            forces[j] = in_axes(member.face.lift(member.directions.e[j]));
+          }
+        for (unsigned int k = 0; k < pair.n_nodes; ++k)
+          if (const unsigned int node = pair.nodes[k]; !mobility->is_held(node))
+            {
+              Entry &entry = entries.emplace_back();
+              entry.node   = node;
+              entry.member = m;
+              for (unsigned int j = 0; j < member.directions.n; ++j)
+                {
+                  entry.force[j]     = pair.at_node(k, forces[j]);
+                  entry.increment[j] = mobility->times(pair.at_node(k, along[j]), node) /
+                                       mass_factor;
+                }
+            }
+      }
+  }
+
+
+  void
+  PairPreconditioner::sort_entries(const Group &group)
+  {
+    begins.assign(mobility->size() + 1, 0);
+    for (const Entry &entry : entries)
+      ++begins[entry.node + 1];
+    for (unsigned int node = 0; node < mobility->size(); ++node)
+      begins[node + 1] += begins[node];
+    auto ends = begins;
+    at_node.resize(entries.size());
+    for (unsigned int i = 0; i < entries.size(); ++i)
+      at_node[ends[entries[i].node]++] = i;
+    coupled_with.assign(group.members.size(), numbers::invalid_unsigned_int);
+    coupling_with.resize(group.members.size());
+  }
+
+
+  // The blocks of members that share nodes.
+  void
+  PairPreconditioner::couple(const Group &group)
+  {
+    const auto add = [](const Entry &of_rows, const Entry &of_columns, BlockFactor::Block &block) {
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = 0; j < 3; ++j)
+          block.rows[i][j] += of_rows.increment[i] * of_columns.force[j];
+    };
+
+    sort_entries(group);
+    couplings.clear();
+    for (const Entry &entry : entries)
+      {
+        const unsigned int m = entry.member;
+        add(entry, entry, diagonal[m]);
+        if (mobility->is_common(entry.node))
+          continue;
+        for (unsigned int i = begins[entry.node]; entries[at_node[i]].member < m; ++i)
+          {
+            const Entry &other = entries[at_node[i]];
+            if (coupled_with[other.member] != m)
+              {
+                coupled_with[other.member]  = m;
+                coupling_with[other.member] = couplings.size();
+                couplings.push_back({m, other.member, {}, {}});
+              }
+            auto &coupling = couplings[coupling_with[other.member]];
+            add(entry, other, coupling.ab);
+            add(other, entry, coupling.ba);
           }
       }
-    std::stable_sort(entries.begin(), entries.end(), [](const Entry &a, const Entry &b) {
-      return a.node < b.node;
-    });
   }
 
 
   void
   PairPreconditioner::factorize(Group &group)
   {
-    constexpr double rounding = 1e-12; // of what is zero between orthogonal directions
-
-    const bool symmetric = is_symmetric(group);
-    triplets.clear();
-    const auto add = [&](const Entry &row, const Entry &column) {
-      if (const double value = column.force * row.increment; std::abs(value) > rounding)
-        triplets.emplace_back(row.row, column.row, value);
-    };
-    for (const Member &member : group.members)
-      for (unsigned int j = 0; j < member.directions.n; ++j)
-        triplets.emplace_back(member.row + j, member.row + j, shift + member.curvature_along(j));
-    auto of_node = entries.cbegin();
-    for (auto entry = entries.cbegin(); entry != entries.cend(); ++entry)
-      {
-        if (entry->node != of_node->node)
-          of_node = entry;
-        for (auto other = mobility->is_common(entry->node) ? entry : of_node; other <= entry;
-             ++other)
-          {
-            add(*entry, *other);
-            if (!symmetric && other != entry)
-              add(*other, *entry);
-          }
-      }
-    group.valid = group.factor.compute(group.n_rows, triplets, symmetric);
+    diagonal.assign(group.members.size(), {});
+    for (unsigned int m = 0; m < group.members.size(); ++m)
+      for (unsigned int j = 0; j < 3; ++j)
+        diagonal[m].rows[j][j] = j < group.members[m].directions.n ?
+                                   shift + group.members[m].curvature_along(j) :
+                                   1.;
+    couple(group);
+    group.valid = group.sparse.compute(diagonal, couplings);
   }
 
 
@@ -288,20 +332,34 @@ namespace akmon
   {
     z = r;
     for (const auto &group : groups)
-      {
-        if (!group->valid)
-          continue;
-        values.resize(group->n_rows);
-        for (const Member &member : group->members)
-          for (unsigned int j = 0; j < member.directions.n; ++j)
-            values[member.row + j] = member.directions.e[j] * r[member.pair];
-        group->factor.solve_in_place(values);
-        for (const Member &member : group->members)
-          for (unsigned int j = 0; j < member.directions.n; ++j)
-            {
-              const auto &e = member.directions.e[j];
-              z[member.pair] += (values[member.row + j] - e * r[member.pair]) * e;
-            }
-      }
+      if (group->valid)
+        is_assembled() ? apply_full(*group, r, z) : apply_sparse(*group, r, z);
+  }
+
+
+  void
+  PairPreconditioner::apply_full(const Group &group, const Vector &r, Vector &z)
+  {
+    values.resize(group.n_rows);
+    for (const Member &member : group.members)
+      for (unsigned int j = 0; j < member.directions.n; ++j)
+        values[member.row + j] = member.directions.e[j] * r[member.pair];
+    group.full.solve_in_place(values);
+    for (const Member &member : group.members)
+      member.replace([&](const unsigned int j) { return values[member.row + j]; }, z[member.pair]);
+  }
+
+
+  void
+  PairPreconditioner::apply_sparse(const Group &group, const Vector &r, Vector &z)
+  {
+    block_values.assign(group.members.size(), {});
+    for (unsigned int m = 0; m < group.members.size(); ++m)
+      for (unsigned int j = 0; j < group.members[m].directions.n; ++j)
+        block_values[m][j] = group.members[m].directions.e[j] * r[group.members[m].pair];
+    group.sparse.solve_in_place(block_values);
+    for (unsigned int m = 0; m < group.members.size(); ++m)
+      group.members[m].replace([&](const unsigned int j) { return block_values[m][j]; },
+                               z[group.members[m].pair]);
   }
 } // namespace akmon

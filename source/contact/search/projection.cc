@@ -14,33 +14,6 @@ namespace akmon
       {{{-1., -1.}}, {{1., -1.}}, {{1., 1.}}, {{-1., 1.}}}};
 
 
-    // A segment as x(xi, eta) = c + c_xi xi + c_eta eta + c_xi_eta xi eta.
-    struct Bilinear
-    {
-      Tensor<1, 3> c, c_xi, c_eta, c_xi_eta;
-
-      explicit Bilinear(const Segment &x)
-        : c(0.25 * ((x[0] + x[2]) + (x[1] + x[3])))
-        , c_xi(0.25 * ((x[2] - x[0]) + (x[1] - x[3])))
-        , c_eta(0.25 * ((x[2] - x[0]) - (x[1] - x[3])))
-        , c_xi_eta(0.25 * ((x[0] + x[2]) - (x[1] + x[3])))
-      {
-      }
-
-      Tensor<1, 3>
-      along_xi(const double eta) const
-      {
-        return c_xi + eta * c_xi_eta;
-      }
-
-      Tensor<1, 3>
-      along_eta(const double xi) const
-      {
-        return c_eta + xi * c_xi_eta;
-      }
-    };
-
-
     // Newton on |slave - x(xi, eta)|^2 from a start, Gauss-Newton where that is not convex; true if
     // it ends inside the segment.
     bool
@@ -147,15 +120,6 @@ namespace akmon
       }
     classify(projection, edge_tolerance);
     return projection;
-  }
-
-
-  Tensor<1, 3>
-  segment_normal(const Segment &segment, const double xi, const double eta)
-  {
-    const Bilinear x(segment);
-    const auto normal = cross_product_3d(x.along_xi(eta), x.along_eta(xi));
-    return normal / normal.norm();
   }
 
 

@@ -49,11 +49,16 @@ namespace akmon
 
   // Sum of the area vectors of the slave faces around a node.
   Tensor<1, 3>
-  SurfaceSearch::slave_normal(const ContactNodes::Field &x, const unsigned int slave) const
+  SurfaceSearch::slave_normal(const ContactNodes::Field &x, const unsigned int slave)
   {
     Tensor<1, 3> normal;
     for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
-      normal += area_vector(segment(x, nodes_of_slave_faces[i]));
+      {
+        FaceArea &area = face_areas[slave_face_list[i]];
+        if (area.look != n_configurations)
+          area = {n_configurations, area_vector(segment(x, nodes_of_slave_faces[i]))};
+        normal += area.vector;
+      }
     return normal;
   }
 
@@ -77,8 +82,8 @@ namespace akmon
       components_of_corners[k] = components(corners[k]);
     const FaceBox<double> box(components_of_corners);
     const auto from_middle = components(point - middle);
-    return std::hypot(box.beyond(from_middle, 0), box.beyond(from_middle, 1)) <=
-           beside * std::sqrt(box.area);
+    const double beyond_0 = box.beyond(from_middle, 0), beyond_1 = box.beyond(from_middle, 1);
+    return beyond_0 * beyond_0 + beyond_1 * beyond_1 <= beside * beside * box.area;
   }
 
 

@@ -27,9 +27,14 @@ namespace akmon
       if (const auto corners = segment(x, masters[memory.face]);
           looks_at(slave, area_vector(corners)))
         {
-          partner.face       = memory.face;
-          partner.projection = project(point, corners);
-          bound              = partner.projection.offset.norm();
+          // Its foot was in the step before or does not count: ranks may forget older ones.
+          const bool is_fresh = memory.search + 1 == n_searches;
+          partner.face        = memory.face;
+          partner.projection  = project(point,
+                                       corners,
+                                       near_border,
+                                       is_fresh ? memory.foot : std::array<double, 2>());
+          bound               = partner.projection.offset.norm();
           if (memory.others_clear_of > std::max(bound, reach))
             return true;
         }
@@ -206,6 +211,8 @@ namespace akmon
                             const double least_reach,
                             std::vector<ContactPair> &pairs)
   {
+    ++n_configurations;
+    ++n_searches;
     advance(motions);
     choose_looks(steps, least_reach);
     choose_near_candidates();
@@ -214,10 +221,18 @@ namespace akmon
                                looks.end(),
                                [&](const Look &look) { return is_still_outside(look); }),
                 looks.end());
-    for (const Look &look : looks)
-      outwards[look.slave] = slave_normal(x, look.slave);
-    for (const auto &[slave, reach] : looks)
-      find_pairs_of(x, slave, reach, pairs);
+    for (std::size_t i = 0; i < looks.size(); ++i)
+      {
+        if (i + prefetched < looks.size())
+          __builtin_prefetch(&nodes_of_slave_faces[slaves[looks[i + prefetched].slave].first_face]);
+        outwards[looks[i].slave] = slave_normal(x, looks[i].slave);
+      }
+    for (std::size_t i = 0; i < looks.size(); ++i)
+      {
+        if (i + prefetched < looks.size())
+          prefetch_face(memories[looks[i + prefetched].slave].face);
+        find_pairs_of(x, looks[i].slave, looks[i].reach, pairs);
+      }
   }
 
 
@@ -257,6 +272,8 @@ namespace akmon
         return;
       }
     memory.face           = partner.face;
+    memory.search         = n_searches;
+    memory.foot           = {{partner.projection.xi, partner.projection.eta}};
     const double distance = partner.projection.offset.norm();
     // Whatever is inside stays under watch.
     const bool outside = partner.projection.offset *

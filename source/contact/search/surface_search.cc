@@ -128,6 +128,7 @@ namespace akmon
     for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
       slaves[s].stiffness = stiffness.at(slaves[s].node);
     outwards.resize(slaves.size());
+    face_areas.resize(slave_faces.size());
     forget_distances();
   }
 
@@ -205,6 +206,7 @@ namespace akmon
                                   const double moved)
   {
     settle_distances(moved);
+    ++n_configurations;
     masters.clear();
     std::vector<BoxGrid::Box> boxes;   // by face
     std::vector<Tensor<1, 3>> normals; // by face

@@ -13,13 +13,21 @@ namespace akmon
   /// A pair of any rank that may close in the step, with all that its island has to know.
   struct ClosingPair
   {
-    ContactPair pair;
+    const ContactPair *pair;                               ///< referred to
     std::array<ContactNodes::Id, 7> ids;                   ///< of its nodes
     std::array<dealii::SymmetricTensor<2, 3>, 7> mobility; ///< W of its nodes; 1/mass
     double friction;                                       ///< mu
     dealii::Tensor<1, 3> free_motion;                      ///< G dx_f; length
     bool is_bonded;                                        ///< bonds hold a node of it
     unsigned int rank, number;                             ///< where it comes from
+  };
+
+
+  /// The same, to be sent to other ranks.
+  struct SentPair
+  {
+    ContactPair pair;
+    ClosingPair closing;
   };
 
 

@@ -37,10 +37,17 @@ namespace akmon
     }
 
   private:
+    // t of a loaded pair, and what it turns the partner by.
+    struct Load
+    {
+      dealii::Tensor<1, 3> force, turn;
+    };
+
     const ContactNodes &nodes;
     const Mobility &mobility;
     const Bonds *const bonds;
     std::vector<ContactPair *> pairs, loaded;
+    std::vector<Load> loads; ///< of the loaded pairs
     double mass_factor = 1.;
     ContactNodes::Field field;
     NodalSums sums;

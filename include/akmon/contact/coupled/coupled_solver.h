@@ -6,7 +6,6 @@
 #include <akmon/contact/coupled/united_sets.h>
 #include <akmon/contact/pair.h>
 
-#include <map>
 #include <memory>
 #include <vector>
 
@@ -112,6 +111,7 @@ namespace akmon
 
     struct Island : ContactIsland
     {
+      Key key; ///< of its first pair
       bool of_this_step = false;
       bool is_new       = false; ///< its solution, to the ranks of its pairs
     };
@@ -156,7 +156,7 @@ namespace akmon
     void
     divide_shared_pairs();
     void
-    make_island();
+    make_island(std::vector<std::unique_ptr<Island>>::iterator &old);
     void
     take_target_gaps();
     void
@@ -174,6 +174,7 @@ namespace akmon
     const ContactNodes &nodes;
     const Mobility &mobility;
     const Bonds *const bonds;
+    const unsigned int rank;
     ContactResponse response;
     ContactIsland::Newton newton;
     NewtonLanes lanes;
@@ -184,26 +185,34 @@ namespace akmon
     double mass_factor = 1.;
     bool has_begun     = false; ///< to solve in this step
 
-    std::vector<unsigned int> lone;   ///< pairs that have a closed solution, by number in `all`
-    std::vector<ClosingPair> closing; ///< in islands that no other rank has a part in
-    std::vector<ClosingPair> shared;  ///< in islands that others may have a part in
-    std::vector<ClosingPair> of_all_ranks;          ///< these of all ranks, one rank after another
-    std::vector<unsigned int> order;                ///< of these, by key
-    std::map<Key, std::unique_ptr<Island>> islands; ///< that this rank solves, by their first pair
-    std::map<Key, std::unique_ptr<Island>> old_islands;
+    std::vector<unsigned int> lone;     ///< pairs that have a closed solution, by number in `all`
+    std::vector<ClosingPair> closing;   ///< in islands that no other rank has a part in
+    std::vector<ClosingPair> shared;    ///< in islands that others may have a part in
+    std::vector<SentPair> of_all_ranks; ///< these of all ranks, one rank after another
+    std::vector<unsigned int> order;    ///< of these, by key
+    std::vector<std::unique_ptr<Island>> islands; ///< that this rank solves, sorted by key
+    std::vector<std::unique_ptr<Island>> old_islands;
 
     struct Meeting
     {
       ContactNodes::Id node;
     };
 
+    struct LastPair
+    {
+      unsigned long division = 0; ///< of pairs into islands: 1, 2, ...
+      unsigned int pair      = 0;
+    };
+
     // Scratch.
-    std::vector<Meeting> met;          ///< nodes of other ranks in active pairs
-    std::vector<bool> met_by_others;   ///< by owned node
-    std::vector<unsigned int> own;     ///< active pairs, by number in `all`
-    std::vector<bool> bonded;          ///< the same
-    ClosingPairs members;              ///< of the island in work
-    std::vector<unsigned int> last_at; ///< by node
+    std::vector<Meeting> met;        ///< nodes of other ranks in active pairs
+    std::vector<bool> met_by_others; ///< by owned node
+    std::vector<unsigned int> own;   ///< active pairs, by number in `all`
+    std::vector<bool> bonded;        ///< the same
+    std::vector<SentPair> to_send;
+    ClosingPairs members;          ///< of the island in work
+    std::vector<LastPair> last_at; ///< by node
+    unsigned long n_divisions = 0;
     std::vector<double> gaps;
     std::vector<Solved> solved;
     std::vector<Island *> small;                ///< islands to be solved side by side

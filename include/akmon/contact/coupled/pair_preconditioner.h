@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/contact/coupled/block_factor.h>
 #include <akmon/contact/coupled/coulomb_faces.h>
 #include <akmon/contact/coupled/delassus.h>
 #include <akmon/contact/coupled/matrix_factor.h>
@@ -20,8 +21,7 @@ namespace akmon
    *
    * where E are the free directions: the normal of a closed pair, both tangents where it sticks,
    * the tangent of the circle where it slips; L adds the force of slip that follows a normal force
-   * (CoulombFace::lift). Where nothing slips J is symmetric and has a Cholesky factor, elsewhere
-   * triangular factors with pivoting.
+   * (CoulombFace::lift).
    *
    * A is singular where constraints repeat each other; the shift makes factors regular. A rigid
    * body couples all its pairs by six unknowns, which cost as many iterations at most: it counts on
@@ -29,6 +29,8 @@ namespace akmon
    * factor of its own, which is kept, from step to step too, while its free directions are about
    * the same: weights and normals that have changed a little make it no worse. Of an operator that
    * has been assembled all pairs are one group, whose factor is exact and made anew in every step.
+   *
+   * In the blocks of a group directions that are not free stand last, with rows of the unit matrix.
    */
   class PairPreconditioner
   {
@@ -109,6 +111,16 @@ namespace akmon
                  face.curvature :
                  0.;
       }
+
+      // Replace the free components of a vector.
+      template <typename Value>
+      void
+      replace(const Value &value, dealii::Tensor<1, 3> &v) const
+      {
+        const auto before = v;
+        for (unsigned int j = 0; j < directions.n; ++j)
+          v += (value(j) - directions.e[j] * before) * directions.e[j];
+      }
     };
 
     // Pairs that share nodes, and their factor.
@@ -116,7 +128,8 @@ namespace akmon
     {
       std::vector<Member> members; ///< sorted by key
       unsigned int n_rows = 0;
-      MatrixFactor factor;
+      MatrixFactor full;  ///< of an operator that has been assembled
+      BlockFactor sparse; ///< of others, a block row for each member
       bool valid = false; ///< whether J could be factorized
       bool old   = false; ///< whether it was made for other pairs
 
@@ -125,17 +138,18 @@ namespace akmon
       {
         members.clear();
         n_rows = 0;
-        valid  = false;
+        valid = old = false;
       }
     };
 
-    // What a unit force along a free direction, and the force of slip that follows it, does to a
-    // node, s_i N_ik L e, and the motion that is the pair's along e, s_i M_k^{-1} N_ik e.
+    // What unit forces of a member along its free directions, and the forces of slip that follow
+    // them, do to a node, s_i N_ik L e, and the motions that are the pair's along e,
+    // s_i M_k^{-1} N_ik e. Zero in directions that are not free.
     struct Entry
     {
       unsigned int node;
-      unsigned int row;
-      dealii::Tensor<1, 3> force, increment;
+      unsigned int member;
+      std::array<dealii::Tensor<1, 3>, 3> force, increment;
     };
 
     bool
@@ -162,9 +176,17 @@ namespace akmon
     void
     collect_entries(const Group &group);
     void
+    sort_entries(const Group &group);
+    void
+    couple(const Group &group);
+    void
     factorize(Group &group);
     void
     factorize_full(Group &group);
+    void
+    apply_full(const Group &group, const Vector &r, Vector &z);
+    void
+    apply_sparse(const Group &group, const Vector &r, Vector &z);
 
     double shift                          = 0.;
     const std::vector<ContactPair> *pairs = nullptr; ///< unless the operator has been assembled
@@ -173,8 +195,13 @@ namespace akmon
     double mass_factor                    = 1.;
     std::vector<unsigned int> closed, now_closed; ///< numbers of the pairs in the groups
     std::vector<std::unique_ptr<Group>> groups;
-    std::vector<Entry> entries;     ///< of the group in work, by node and row
-    MatrixFactor::Entries triplets; ///< of the group in work
+    // Of the group in work.
+    std::vector<Entry> entries;                            ///< by member
+    std::vector<unsigned int> begins, at_node;             ///< entries by node
+    std::vector<unsigned int> coupled_with, coupling_with; ///< by member: the last one, and where
+    std::vector<BlockFactor::Block> diagonal;
+    std::vector<BlockFactor::Coupling> couplings;
+    BlockFactor::Vector block_values;
     Eigen::VectorXd values;
     Eigen::MatrixXd jacobian; ///< of an assembled operator
   };

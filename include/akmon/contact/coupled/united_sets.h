@@ -1,5 +1,7 @@
 #pragma once
 
+#include <deal.II/base/array_view.h>
+
 #include <numeric>
 #include <vector>
 
@@ -21,22 +23,46 @@ namespace akmon
       parents[root_of(b)] = root_of(a);
     }
 
-    /// The sets in the order of their smallest numbers, each in rising order.
-    std::vector<std::vector<unsigned int>>
+    /// The sets in the order of their smallest numbers, one behind the other, each in rising order.
+    struct Lists
+    {
+      std::vector<unsigned int> numbers;
+      std::vector<unsigned int> begins; ///< of the sets, and one past the end
+
+      std::size_t
+      size() const
+      {
+        return begins.size() - 1;
+      }
+
+      dealii::ArrayView<const unsigned int>
+      operator[](const std::size_t set) const
+      {
+        return {numbers.data() + begins[set], begins[set + 1] - begins[set]};
+      }
+    };
+
+    Lists
     lists()
     {
-      std::vector<std::vector<unsigned int>> result;
-      std::vector<unsigned int> list_of_root(parents.size(), parents.size());
+      Lists result;
+      std::vector<unsigned int> list_of(parents.size(), parents.size()); // by root
       for (unsigned int i = 0; i < parents.size(); ++i)
         {
-          unsigned int &list = list_of_root[root_of(i)];
-          if (list == parents.size())
+          const unsigned int root = root_of(i);
+          if (list_of[root] == parents.size())
             {
-              list = result.size();
-              result.emplace_back();
+              list_of[root] = result.begins.size();
+              result.begins.push_back(0);
             }
-          result[list].push_back(i);
+          ++result.begins[list_of[root]];
         }
+      std::exclusive_scan(result.begins.begin(), result.begins.end(), result.begins.begin(), 0U);
+      result.begins.push_back(parents.size());
+      auto ends = result.begins;
+      result.numbers.resize(parents.size());
+      for (unsigned int i = 0; i < parents.size(); ++i)
+        result.numbers[ends[list_of[root_of(i)]]++] = i;
       return result;
     }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <akmon/simd.h>
+
 #include <deal.II/base/tensor.h>
 
 #include <algorithm>
@@ -37,6 +39,9 @@ namespace akmon
     reinit(std::vector<Box> new_boxes)
     {
       boxes = std::move(new_boxes);
+      limits.clear();
+      for (const Box &box : boxes)
+        limits.emplace_back(box.lower, -box.upper);
       choose_cell_size();
       std::size_t n_buckets = 1;
       while (n_buckets < 2 * boxes.size())
@@ -58,12 +63,13 @@ namespace akmon
     visit_holding(const dealii::Tensor<1, 3> &x, const Visit &visit) const
     {
       const std::size_t bucket = bucket_of(cell_of(x));
-      unsigned int last        = -1;
+      const Limits of_x(x, -x);
+      unsigned int last = -1;
       for (unsigned int i = begins[bucket]; i < begins[bucket + 1]; ++i)
         {
           // Several cells of a box may fall into the same bucket, where they stand together.
           const unsigned int box = entries[i];
-          if (box != last && boxes[box].holds(x))
+          if (box != last && limits[box].allow(of_x))
             visit(box);
           last = box;
         }
@@ -78,6 +84,31 @@ namespace akmon
 
   private:
     using Cell = std::array<std::int64_t, 3>;
+
+    // What the six numbers (x, -x) of a point must not be below, side by side in SIMD lanes.
+    struct alignas(64) Limits
+    {
+      Limits(const dealii::Tensor<1, 3> &lower, const dealii::Tensor<1, 3> &minus_upper)
+      {
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            values[d]     = lower[d];
+            values[3 + d] = minus_upper[d];
+          }
+      }
+
+      bool
+      allow(const Limits &of_point) const
+      {
+        bool all = true;
+        for (unsigned int i = 0; i < 8; i += n_lanes)
+          all = all & xsimd::all(Lanes::load_aligned(values + i) <=
+                                 Lanes::load_aligned(of_point.values + i));
+        return all;
+      }
+
+      double values[8] = {};
+    };
 
     // Large boxes among small ones would overlap many cells.
     void
@@ -164,6 +195,7 @@ namespace akmon
     }
 
     std::vector<Box> boxes;
+    std::vector<Limits> limits;                ///< of the same
     double size      = 1.;                     ///< of the cells; length
     std::size_t mask = 0;                      ///< number of buckets, a power of two, less one
     std::vector<unsigned int> begins, entries; ///< by bucket: the numbers of its boxes

@@ -43,9 +43,40 @@ namespace akmon
           const double edge_tolerance        = near_border,
           const std::array<double, 2> &start = {{0., 0.}});
 
+  /// A segment as x(xi, eta) = c + c_xi xi + c_eta eta + c_xi_eta xi eta; length.
+  struct Bilinear
+  {
+    dealii::Tensor<1, 3> c, c_xi, c_eta, c_xi_eta;
+
+    explicit Bilinear(const Segment &x)
+      : c(0.25 * ((x[0] + x[2]) + (x[1] + x[3])))
+      , c_xi(0.25 * ((x[2] - x[0]) + (x[1] - x[3])))
+      , c_eta(0.25 * ((x[2] - x[0]) - (x[1] - x[3])))
+      , c_xi_eta(0.25 * ((x[0] + x[2]) - (x[1] + x[3])))
+    {
+    }
+
+    dealii::Tensor<1, 3>
+    along_xi(const double eta) const
+    {
+      return c_xi + eta * c_xi_eta;
+    }
+
+    dealii::Tensor<1, 3>
+    along_eta(const double xi) const
+    {
+      return c_eta + xi * c_xi_eta;
+    }
+  };
+
   /// Outward unit normal of a segment at (xi, eta).
-  dealii::Tensor<1, 3>
-  segment_normal(const Segment &segment, const double xi, const double eta);
+  inline dealii::Tensor<1, 3>
+  segment_normal(const Segment &segment, const double xi, const double eta)
+  {
+    const Bilinear x(segment);
+    const auto normal = cross_product_3d(x.along_xi(eta), x.along_eta(xi));
+    return normal / normal.norm();
+  }
 
   /// Outward normal of a segment, as long as its area (exact for plane segments).
   inline dealii::Tensor<1, 3>

@@ -5,6 +5,7 @@
 #include <akmon/contact/pair.h>
 #include <akmon/contact/search/body_motions.h>
 #include <akmon/contact/search/box_grid.h>
+#include <akmon/contact/search/master_face.h>
 #include <akmon/contact/search/projection.h>
 #include <akmon/contact/search/rank_regions.h>
 
@@ -119,6 +120,15 @@ namespace akmon
       return master_faces;
     }
 
+    /// Fetch from memory what gap_at() of the pair that is this many further on will read first.
+    static constexpr unsigned int prefetched = 4;
+
+    void
+    prefetch(const ContactPair &pair) const
+    {
+      prefetch_face(pair.face);
+    }
+
   private:
     struct Slave
     {
@@ -166,30 +176,6 @@ namespace akmon
       double reach; ///< length
     };
 
-    using FaceNodes = std::array<unsigned int, 4>; // contact numbers
-
-    struct MasterFace
-    {
-      FaceNodes nodes;
-      double depth, stiffness; ///< as in its message
-    };
-
-    struct FaceMessage
-    {
-      dealii::types::global_cell_index id;
-      unsigned int body;
-      double depth;     ///< thickness of the cell behind the face; length
-      double stiffness; ///< K A^2/V of that cell; force/length
-      std::array<ContactNodes::Id, 4> nodes;
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &id &body &depth &stiffness &nodes;
-      }
-    };
-
     static constexpr double
       furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
@@ -214,6 +200,15 @@ namespace akmon
       bool was_outside       = false; ///< of that face, and further than the reach
       double clear_of        = 0.;    ///< no face is closer; length
       double others_clear_of = 0.;    ///< no other face is closer; length
+      unsigned long search   = 0;     ///< number of the one that found the foot
+      std::array<double, 2> foot{};   ///< (xi, eta) of the closest point in that face
+    };
+
+    // Of a slave face, in the configuration that was looked at last when it was asked for.
+    struct FaceArea
+    {
+      unsigned long look = 0; ///< number of that configuration
+      dealii::Tensor<1, 3> vector;
     };
 
     struct Partner
@@ -224,6 +219,12 @@ namespace akmon
       double gap;                  ///< along the normal; length
     };
 
+    void
+    prefetch_face(const unsigned int face) const
+    {
+      if (face < masters.size())
+        __builtin_prefetch(&masters[face]);
+    }
     void
     collect_slaves();
     RankRegions
@@ -267,7 +268,7 @@ namespace akmon
                   const double reach,
                   std::vector<ContactPair> &pairs);
     dealii::Tensor<1, 3>
-    slave_normal(const ContactNodes::Field &x, const unsigned int slave) const;
+    slave_normal(const ContactNodes::Field &x, const unsigned int slave);
     double
     bound_of_distance(const unsigned int candidate) const
     {
@@ -351,9 +352,11 @@ namespace akmon
     std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list;
     std::vector<Candidate> candidates;
-    std::vector<FaceNodes> nodes_of_slave_faces; ///< in the order of slave_face_list
-    std::vector<dealii::Tensor<1, 3>> outwards;  ///< by slave: area vector of its faces
-    std::vector<Memory> memories;                ///< by slave
+    std::vector<FaceNodes> nodes_of_slave_faces;        ///< in the order of slave_face_list
+    std::vector<FaceArea> face_areas;                   ///< by slave face
+    unsigned long n_configurations = 0, n_searches = 0; ///< looked at; among them for pairs
+    std::vector<dealii::Tensor<1, 3>> outwards;         ///< by slave: area vector of its faces
+    std::vector<Memory> memories;                       ///< by slave
     std::vector<BodyPair> body_pairs;
     std::vector<PairAround> pairs_around; ///< by slave
     std::vector<Motion> motions_around;   ///< by slave, in this step
