@@ -61,6 +61,25 @@ namespace matrix_factor_test
   }
 
 
+  // Entries of the same place are added.
+  TEST_P(Rows, of_a_sparse_matrix)
+  {
+    for (const Chain &chain : {indefinite, second_difference})
+      {
+        MatrixFactor::Entries entries;
+        for (unsigned int i = 0; i < n; ++i)
+          {
+            entries.emplace_back(i, i, chain.diagonal - 1.);
+            entries.emplace_back(i, i, 1.);
+            if (i > 0)
+              entries.emplace_back(i, i - 1, chain.left);
+          }
+        EXPECT_EQ(factor.compute(n, entries), chain.diagonal > 2.);
+      }
+    expect_solution(factor, second_difference);
+  }
+
+
   TEST_P(Rows, tell_of_an_indefinite_matrix)
   {
     EXPECT_FALSE(factor.compute(indefinite.matrix(n, true), true));
@@ -91,5 +110,5 @@ namespace matrix_factor_test
   }
 
 
-  INSTANTIATE_TEST_SUITE_P(Matrix, Rows, testing::Values(5u, 96u));
+  INSTANTIATE_TEST_SUITE_P(Matrix, Rows, testing::Values(5u, 170u, 171u));
 } // namespace matrix_factor_test

@@ -79,7 +79,7 @@ namespace akmon
   {
     const unsigned int n = diagonal.size();
     find_order(n, couplings);
-    columns.resize(n);
+    columns.resize(std::max<std::size_t>(columns.size(), n)); // that have storage
     for (auto &of_column : columns)
       of_column.clear();
     inverses.assign(n, {});

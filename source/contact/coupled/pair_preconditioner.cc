@@ -223,7 +223,7 @@ namespace akmon
               }
           jacobian(of_column.row + j, of_column.row + j) += shift + of_column.curvature_along(j);
         }
-    group.valid = group.n_rows > 0 && group.full.compute(jacobian, is_symmetric(group));
+    group.valid = group.n_rows > 0 && group.by_rows.compute(jacobian, is_symmetric(group));
   }
 
 
@@ -250,6 +250,7 @@ namespace akmon
               Entry &entry = entries.emplace_back();
               entry.node   = node;
               entry.member = m;
+              entry.n      = member.directions.n;
               for (unsigned int j = 0; j < member.directions.n; ++j)
                 {
                   entry.force[j]     = pair.at_node(k, forces[j]);
@@ -283,8 +284,8 @@ namespace akmon
   PairPreconditioner::couple(const Group &group)
   {
     const auto add = [](const Entry &of_rows, const Entry &of_columns, BlockFactor::Block &block) {
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = 0; j < 3; ++j)
+      for (unsigned int i = 0; i < of_rows.n; ++i)
+        for (unsigned int j = 0; j < of_columns.n; ++j)
           block.rows[i][j] += of_rows.increment[i] * of_columns.force[j];
     };
 
@@ -323,7 +324,26 @@ namespace akmon
                                    shift + group.members[m].curvature_along(j) :
                                    1.;
     couple(group);
-    group.valid = group.sparse.compute(diagonal, couplings);
+    group.has_blocks = group.n_rows > group.members.size();
+    if (group.has_blocks)
+      group.valid = group.by_members.compute(diagonal, couplings);
+    else
+      factorize_normals(group);
+  }
+
+
+  // Of members that have no other free direction.
+  void
+  PairPreconditioner::factorize_normals(Group &group)
+  {
+    lower_triangle.clear();
+    for (unsigned int m = 0; m < group.members.size(); ++m)
+      lower_triangle.emplace_back(m, m, diagonal[m].rows[0][0]);
+    for (const auto &coupling : couplings)
+      lower_triangle.emplace_back(std::max(coupling.a, coupling.b),
+                                  std::min(coupling.a, coupling.b),
+                                  coupling.ab.rows[0][0]);
+    group.valid = group.by_rows.compute(group.members.size(), lower_triangle);
   }
 
 
@@ -333,31 +353,31 @@ namespace akmon
     z = r;
     for (const auto &group : groups)
       if (group->valid)
-        is_assembled() ? apply_full(*group, r, z) : apply_sparse(*group, r, z);
+        group->has_blocks ? apply_by_members(*group, r, z) : apply_by_rows(*group, r, z);
   }
 
 
   void
-  PairPreconditioner::apply_full(const Group &group, const Vector &r, Vector &z)
+  PairPreconditioner::apply_by_rows(const Group &group, const Vector &r, Vector &z)
   {
     values.resize(group.n_rows);
     for (const Member &member : group.members)
       for (unsigned int j = 0; j < member.directions.n; ++j)
         values[member.row + j] = member.directions.e[j] * r[member.pair];
-    group.full.solve_in_place(values);
+    group.by_rows.solve_in_place(values);
     for (const Member &member : group.members)
       member.replace([&](const unsigned int j) { return values[member.row + j]; }, z[member.pair]);
   }
 
 
   void
-  PairPreconditioner::apply_sparse(const Group &group, const Vector &r, Vector &z)
+  PairPreconditioner::apply_by_members(const Group &group, const Vector &r, Vector &z)
   {
     block_values.assign(group.members.size(), {});
     for (unsigned int m = 0; m < group.members.size(); ++m)
       for (unsigned int j = 0; j < group.members[m].directions.n; ++j)
         block_values[m][j] = group.members[m].directions.e[j] * r[group.members[m].pair];
-    group.sparse.solve_in_place(block_values);
+    group.by_members.solve_in_place(block_values);
     for (unsigned int m = 0; m < group.members.size(); ++m)
       group.members[m].replace([&](const unsigned int j) { return block_values[m][j]; },
                                z[group.members[m].pair]);

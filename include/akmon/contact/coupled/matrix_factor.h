@@ -1,13 +1,14 @@
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <memory>
+#include <vector>
 
 namespace akmon
 {
   /**
-   * Triangular factors of a full square matrix: of a symmetric positive definite one the Cholesky
-   * factor, made of its lower triangle, else with pivoting.
+   * Triangular factors of a square matrix: of a symmetric positive definite one, full or sparse,
+   * the Cholesky factor, made of its lower triangle; of other full ones with pivoting.
    */
   class MatrixFactor
   {
@@ -18,6 +19,12 @@ namespace akmon
     /// @return whether the matrix is positive definite, or not singular to rounding
     bool
     compute(const Eigen::MatrixXd &matrix, const bool symmetric);
+
+    using Entries = std::vector<Eigen::Triplet<double>>;
+
+    /// The same of a sparse symmetric matrix of @p n rows; entries of the same place are added.
+    bool
+    compute(const unsigned int n, const Entries &lower_triangle);
 
     void
     solve_in_place(Eigen::VectorXd &values) const;

@@ -128,27 +128,29 @@ namespace akmon
     {
       std::vector<Member> members; ///< sorted by key
       unsigned int n_rows = 0;
-      MatrixFactor full;  ///< of an operator that has been assembled
-      BlockFactor sparse; ///< of others, a block row for each member
-      bool valid = false; ///< whether J could be factorized
-      bool old   = false; ///< whether it was made for other pairs
+      MatrixFactor by_rows;   ///< of an operator that has been assembled, or without friction
+      BlockFactor by_members; ///< of others, a block row for each member
+      bool has_blocks = false;
+      bool valid      = false; ///< whether J could be factorized
+      bool old        = false; ///< whether it was made for other pairs
 
       void
       clear()
       {
         members.clear();
         n_rows = 0;
-        valid = old = false;
+        valid = old = has_blocks = false;
       }
     };
 
     // What unit forces of a member along its free directions, and the forces of slip that follow
     // them, do to a node, s_i N_ik L e, and the motions that are the pair's along e,
-    // s_i M_k^{-1} N_ik e. Zero in directions that are not free.
+    // s_i M_k^{-1} N_ik e.
     struct Entry
     {
       unsigned int node;
       unsigned int member;
+      unsigned int n; ///< free directions of it
       std::array<dealii::Tensor<1, 3>, 3> force, increment;
     };
 
@@ -182,11 +184,13 @@ namespace akmon
     void
     factorize(Group &group);
     void
+    factorize_normals(Group &group);
+    void
     factorize_full(Group &group);
     void
-    apply_full(const Group &group, const Vector &r, Vector &z);
+    apply_by_rows(const Group &group, const Vector &r, Vector &z);
     void
-    apply_sparse(const Group &group, const Vector &r, Vector &z);
+    apply_by_members(const Group &group, const Vector &r, Vector &z);
 
     double shift                          = 0.;
     const std::vector<ContactPair> *pairs = nullptr; ///< unless the operator has been assembled
@@ -202,6 +206,7 @@ namespace akmon
     std::vector<BlockFactor::Block> diagonal;
     std::vector<BlockFactor::Coupling> couplings;
     BlockFactor::Vector block_values;
+    MatrixFactor::Entries lower_triangle;
     Eigen::VectorXd values;
     Eigen::MatrixXd jacobian; ///< of an assembled operator
   };
