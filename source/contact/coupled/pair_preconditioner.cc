@@ -336,13 +336,15 @@ namespace akmon
   void
   PairPreconditioner::factorize_normals(Group &group)
   {
+    // By value: a reference to one number of a vector of the processor is not to be had.
+    const auto add = [&](const unsigned int i, const unsigned int j, const double value) {
+      lower_triangle.emplace_back(std::max(i, j), std::min(i, j), value);
+    };
     lower_triangle.clear();
     for (unsigned int m = 0; m < group.members.size(); ++m)
-      lower_triangle.emplace_back(m, m, diagonal[m].rows[0][0]);
+      add(m, m, diagonal[m].rows[0][0]);
     for (const auto &coupling : couplings)
-      lower_triangle.emplace_back(std::max(coupling.a, coupling.b),
-                                  std::min(coupling.a, coupling.b),
-                                  coupling.ab.rows[0][0]);
+      add(coupling.a, coupling.b, coupling.ab.rows[0][0]);
     group.valid = group.by_rows.compute(group.members.size(), lower_triangle);
   }
 
