@@ -11,6 +11,7 @@
 
 #include "support/body_overlap.h"
 #include "support/kept_run.h"
+#include "support/rank_case.h"
 
 // Two elastic bricks that collide, turned against each other.
 
@@ -127,5 +128,25 @@ end
     for (const double time : times)
       depth = std::max(depth, depth_of_overlap(*collide(lower, upper, time, more).simulation));
     return depth;
+  }
+
+
+  /// A run of the shipped bricks that is restarted from its first checkpoint has the same bits.
+  inline void
+  expect_same_bits_from_a_checkpoint(std::vector<std::string> overrides)
+  {
+    namespace fs = std::filesystem;
+    const ScratchDirectory scratch;
+    const std::string reference = scratch.path + "/reference", again = scratch.path + "/again";
+    overrides.insert(overrides.end(), {"Checkpoint/Steps=8", "Output/Fields interval=0"});
+    const auto first = run_program(arguments_for(shipped("crossed_bricks"), reference, overrides));
+    ASSERT_EQ(first.status, 0) << first.output;
+    fs::copy(reference, again);
+    const auto checkpoints = checkpoints_in(again);
+    const auto result      = run_program({"--restart", again + "/" + checkpoints[0]});
+    EXPECT_EQ(result.status, 0) << result.output;
+    expect_same_run(again, reference);
+    EXPECT_EQ(file_content(again + "/" + checkpoints[1]),
+              file_content(reference + "/" + checkpoints[1]));
   }
 } // namespace akmon::test::bricks

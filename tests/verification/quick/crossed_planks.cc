@@ -178,19 +178,6 @@ namespace crossed_planks
   // Pairs that have joined in a step are known in the next.
   TEST(CrossedPlanksOnRanks, go_on_from_a_checkpoint_with_the_same_bits)
   {
-    namespace fs = std::filesystem;
-    const ScratchDirectory scratch;
-    const std::string reference = scratch.path + "/reference", again = scratch.path + "/again";
-    auto overrides = as_planks;
-    overrides.insert(overrides.end(), {"Checkpoint/Steps=8", "Output/Fields interval=0"});
-    const auto first = run_program(arguments_for(shipped("crossed_bricks"), reference, overrides));
-    ASSERT_EQ(first.status, 0) << first.output;
-    fs::copy(reference, again);
-    const auto checkpoints = checkpoints_in(again);
-    const auto result      = run_program({"--restart", again + "/" + checkpoints[0]});
-    EXPECT_EQ(result.status, 0) << result.output;
-    expect_same_run(again, reference);
-    EXPECT_EQ(file_content(again + "/" + checkpoints[1]),
-              file_content(reference + "/" + checkpoints[1]));
+    expect_same_bits_from_a_checkpoint(as_planks);
   }
 } // namespace crossed_planks
