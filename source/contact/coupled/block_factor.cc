@@ -132,18 +132,9 @@ namespace akmon
     for (unsigned int i = 0; i < n; ++i)
       positions[order.indices()[i]] = i;
 
-    begins.assign(n + 1, 0);
-    const auto later = [&](const Coupling &coupling) {
-      return std::max(positions[coupling.a], positions[coupling.b]);
-    };
-    for (const Coupling &coupling : couplings)
-      ++begins[later(coupling) + 1];
-    for (unsigned int i = 0; i < n; ++i)
-      begins[i + 1] += begins[i];
-    auto ends = begins;
-    at_row.resize(couplings.size());
-    for (unsigned int c = 0; c < couplings.size(); ++c)
-      at_row[ends[later(couplings[c])]++] = c;
+    couplings_at.fill(n, couplings.size(), [&](const unsigned int c) {
+      return std::max(positions[couplings[c].a], positions[couplings[c].b]);
+    });
   }
 
 
@@ -154,9 +145,9 @@ namespace akmon
   {
     reach.clear();
     marks[i] = i;
-    for (unsigned int c = begins[i]; c < begins[i + 1]; ++c)
+    for (const unsigned int c : couplings_at[i])
       {
-        const Coupling &coupling = couplings[at_row[c]];
+        const Coupling &coupling = couplings[c];
         const bool a_is_later    = positions[coupling.a] == i;
         const unsigned int k     = positions[a_is_later ? coupling.b : coupling.a];
         row[k]                   = a_is_later ? coupling.ab : coupling.ba;

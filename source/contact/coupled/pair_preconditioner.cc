@@ -262,23 +262,6 @@ namespace akmon
   }
 
 
-  void
-  PairPreconditioner::sort_entries(const Group &group)
-  {
-    begins.assign(mobility->size() + 1, 0);
-    for (const Entry &entry : entries)
-      ++begins[entry.node + 1];
-    for (unsigned int node = 0; node < mobility->size(); ++node)
-      begins[node + 1] += begins[node];
-    auto ends = begins;
-    at_node.resize(entries.size());
-    for (unsigned int i = 0; i < entries.size(); ++i)
-      at_node[ends[entries[i].node]++] = i;
-    coupled_with.assign(group.members.size(), numbers::invalid_unsigned_int);
-    coupling_with.resize(group.members.size());
-  }
-
-
   // The blocks of members that share nodes.
   void
   PairPreconditioner::couple(const Group &group)
@@ -289,7 +272,11 @@ namespace akmon
           block.rows[i][j] += of_rows.increment[i] * of_columns.force[j];
     };
 
-    sort_entries(group);
+    entries_at.fill(mobility->size(), entries.size(), [&](const unsigned int i) {
+      return entries[i].node;
+    });
+    coupled_with.assign(group.members.size(), numbers::invalid_unsigned_int);
+    coupling_with.resize(group.members.size());
     couplings.clear();
     for (const Entry &entry : entries)
       {
@@ -297,9 +284,11 @@ namespace akmon
         add(entry, entry, diagonal[m]);
         if (mobility->is_common(entry.node))
           continue;
-        for (unsigned int i = begins[entry.node]; entries[at_node[i]].member < m; ++i)
+        for (const unsigned int i : entries_at[entry.node])
           {
-            const Entry &other = entries[at_node[i]];
+            const Entry &other = entries[i];
+            if (other.member == m) // and so are those behind, or of later members
+              break;
             if (coupled_with[other.member] != m)
               {
                 coupled_with[other.member]  = m;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <akmon/contact/coupled/buckets.h>
+
 #include <array>
 #include <vector>
 
@@ -62,8 +64,8 @@ namespace akmon
     void
     mark_up_from(unsigned int k, const unsigned int i);
 
-    std::vector<unsigned int> positions;      ///< in the elimination, by row of A
-    std::vector<unsigned int> begins, at_row; ///< couplings by the position that comes later
+    std::vector<unsigned int> positions; ///< in the elimination, by row of A
+    Buckets couplings_at;                ///< by the position that comes later
     std::vector<std::vector<Entry>> columns;
     std::vector<Block> inverses; ///< D^{-1}
 

@@ -178,8 +178,6 @@ namespace akmon
     void
     collect_entries(const Group &group);
     void
-    sort_entries(const Group &group);
-    void
     couple(const Group &group);
     void
     factorize(Group &group);
@@ -201,7 +199,7 @@ namespace akmon
     std::vector<std::unique_ptr<Group>> groups;
     // Of the group in work.
     std::vector<Entry> entries;                            ///< by member
-    std::vector<unsigned int> begins, at_node;             ///< entries by node
+    Buckets entries_at;                                    ///< by node
     std::vector<unsigned int> coupled_with, coupling_with; ///< by member: the last one, and where
     std::vector<BlockFactor::Block> diagonal;
     std::vector<BlockFactor::Coupling> couplings;

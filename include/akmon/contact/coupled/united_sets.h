@@ -1,6 +1,6 @@
 #pragma once
 
-#include <deal.II/base/array_view.h>
+#include <akmon/contact/coupled/buckets.h>
 
 #include <numeric>
 #include <vector>
@@ -23,46 +23,18 @@ namespace akmon
       parents[root_of(b)] = root_of(a);
     }
 
-    /// The sets in the order of their smallest numbers, one behind the other, each in rising order.
-    struct Lists
-    {
-      std::vector<unsigned int> numbers;
-      std::vector<unsigned int> begins; ///< of the sets, and one past the end
-
-      std::size_t
-      size() const
-      {
-        return begins.size() - 1;
-      }
-
-      dealii::ArrayView<const unsigned int>
-      operator[](const std::size_t set) const
-      {
-        return {numbers.data() + begins[set], begins[set + 1] - begins[set]};
-      }
-    };
-
-    Lists
+    /// The sets in the order of their smallest numbers.
+    Buckets
     lists()
     {
-      Lists result;
-      std::vector<unsigned int> list_of(parents.size(), parents.size()); // by root
-      for (unsigned int i = 0; i < parents.size(); ++i)
-        {
-          const unsigned int root = root_of(i);
-          if (list_of[root] == parents.size())
-            {
-              list_of[root] = result.begins.size();
-              result.begins.push_back(0);
-            }
-          ++result.begins[list_of[root]];
-        }
-      std::exclusive_scan(result.begins.begin(), result.begins.end(), result.begins.begin(), 0U);
-      result.begins.push_back(parents.size());
-      auto ends = result.begins;
-      result.numbers.resize(parents.size());
-      for (unsigned int i = 0; i < parents.size(); ++i)
-        result.numbers[ends[list_of[root_of(i)]]++] = i;
+      const unsigned int n = parents.size();
+      std::vector<unsigned int> list_of(n, n); // by root
+      unsigned int n_lists = 0;
+      for (unsigned int i = 0; i < n; ++i)
+        if (unsigned int &list = list_of[root_of(i)]; list == n)
+          list = n_lists++;
+      Buckets result;
+      result.fill(n_lists, n, [&](const unsigned int i) { return list_of[root_of(i)]; });
       return result;
     }
 
