@@ -1,4 +1,5 @@
 #include <akmon/model/abaqus_deck.h>
+#include <akmon/model/words.h>
 #include <akmon/parameters.h>
 
 #include <deal.II/base/utilities.h>
@@ -13,16 +14,6 @@ namespace akmon
 {
   namespace
   {
-    std::string
-    upper_case(std::string text)
-    {
-      std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) {
-        return static_cast<char>(std::toupper(c));
-      });
-      return text;
-    }
-
-
     bool
     is_number(const std::string &text)
     {

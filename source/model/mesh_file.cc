@@ -3,6 +3,7 @@
 #include <akmon/model/mesh_file.h>
 #include <akmon/model/mesh_shapes.h>
 #include <akmon/model/mesh_table.h>
+#include <akmon/model/words.h>
 #include <akmon/parameters.h>
 
 #include <deal.II/base/exceptions.h>
@@ -12,8 +13,6 @@
 #include <deal.II/base/utilities.h>
 #include <deal.II/grid/grid_tools.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -27,16 +26,6 @@ namespace akmon
     {
       std::string reason;
     };
-
-
-    std::string
-    upper_case(std::string text)
-    {
-      std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) {
-        return static_cast<char>(std::toupper(c));
-      });
-      return text;
-    }
 
 
     /// The first sentence of what deal.II says about an exception, on one line.

@@ -2,6 +2,8 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <istream>
 #include <sstream>
@@ -137,4 +139,15 @@ namespace akmon
     std::istringstream words;
     std::size_t size;
   };
+
+
+  /// A text with its letters in upper case.
+  inline std::string
+  upper_case(std::string text)
+  {
+    std::transform(text.begin(), text.end(), text.begin(), [](const unsigned char c) {
+      return static_cast<char>(std::toupper(c));
+    });
+    return text;
+  }
 } // namespace akmon
