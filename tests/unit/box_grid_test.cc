@@ -14,12 +14,22 @@ namespace box_grid_test
   using akmon::BoxGrid;
   using Vector = dealii::Tensor<1, 3>;
 
+  bool
+  holds(const BoxGrid::Box &box, const Vector &x)
+  {
+    for (unsigned int d = 0; d < 3; ++d)
+      if (!(box.lower[d] <= x[d] && x[d] <= box.upper[d]))
+        return false;
+    return true;
+  }
+
+
   std::vector<unsigned int>
   holding(const std::vector<BoxGrid::Box> &boxes, const Vector &x)
   {
     std::vector<unsigned int> numbers;
     for (unsigned int i = 0; i < boxes.size(); ++i)
-      if (boxes[i].holds(x))
+      if (holds(boxes[i], x))
         numbers.push_back(i);
     return numbers;
   }

@@ -91,16 +91,16 @@ namespace akmon
     groups.clear();
     for (const auto &list : divide())
       {
-        const auto old = old_groups.find((*pairs)[list.front()].key());
-        if (old != old_groups.end() && serves(*old->second, list, faces))
+        const auto old      = old_groups.find((*pairs)[list.front()].key());
+        const bool is_known = old != old_groups.end();
+        if (is_known && serves(*old->second, list, faces))
           {
             groups.push_back(std::move(old->second));
             for (std::size_t m = 0; m < list.size(); ++m)
               groups.back()->members[m].pair = list[m];
             continue;
           }
-        const bool has_storage = old != old_groups.end() && old->second;
-        groups.push_back(has_storage ? std::move(old->second) : std::make_unique<Group>());
+        groups.push_back(is_known ? std::move(old->second) : std::make_unique<Group>());
         groups.back()->clear();
         make_group(list, faces, *groups.back());
       }

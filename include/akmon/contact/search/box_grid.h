@@ -23,15 +23,6 @@ namespace akmon
     struct Box
     {
       dealii::Tensor<1, 3> lower, upper; ///< length
-
-      bool
-      holds(const dealii::Tensor<1, 3> &x) const
-      {
-        bool inside = true; // without branches, which nobody could foretell
-        for (unsigned int d = 0; d < 3; ++d)
-          inside = inside & (lower[d] <= x[d]) & (x[d] <= upper[d]);
-        return inside;
-      }
     };
 
     /// Take up boxes instead of those there are.
