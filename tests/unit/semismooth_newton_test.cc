@@ -110,6 +110,12 @@ namespace semismooth_newton_test
       return false;
     }
 
+    static bool
+    is_made_for(const std::vector<CoulombFace> &, const double)
+    {
+      return false;
+    }
+
     std::vector<CoulombFace> faces;
   };
 

@@ -108,6 +108,33 @@ namespace akmon
 
 
   bool
+  PairPreconditioner::is_made_for(const std::vector<CoulombFace> &faces,
+                                  const double new_shift) const
+  {
+    if (is_assembled() || shift != new_shift)
+      return false;
+    unsigned int n_closed = 0;
+    for (unsigned int i = 0; i < faces.size(); ++i)
+      n_closed += is_closed(i, faces);
+    for (const auto &group : groups)
+      for (const Member &member : group->members)
+        {
+          const auto pair = std::lower_bound(pairs->begin(),
+                                             pairs->end(),
+                                             member.key,
+                                             [](const ContactPair &a, const Key &key) {
+                                               return a.key() < key;
+                                             });
+          if (pair == pairs->end() || pair->key() != member.key ||
+              !alike(member.face, faces[pair - pairs->begin()]))
+            return false;
+          --n_closed;
+        }
+    return n_closed == 0;
+  }
+
+
+  bool
   PairPreconditioner::is_closed(const unsigned int pair,
                                 const std::vector<CoulombFace> &faces) const
   {

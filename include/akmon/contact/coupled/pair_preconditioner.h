@@ -77,6 +77,10 @@ namespace akmon
     void
     reinit(const std::vector<CoulombFace> &faces, const double shift);
 
+    /// Whether reinit() would find factors that serve.
+    bool
+    is_made_for(const std::vector<CoulombFace> &faces, const double shift) const;
+
     /// z close to J^{-1} r in the free directions.
     void
     apply(const Vector &r, Vector &z);

@@ -22,6 +22,8 @@ namespace akmon
    * preconditioned GMRES. Where faces go round in a circle, friction limits are given and follow
    * t_n in a loop, and other values of rho are tried.
    *
+   * Large problems start with projected gradient steps.
+   *
    * A may be singular where constraints repeat each other: a compliance c makes forces unique
    * (CompliantProblem), first with t_0 = 0, then with the first solution (Tikhonov's method,
    * iterated once), which leaves an error of c^2; from the start with t_0 = t where that solves
@@ -31,7 +33,8 @@ namespace akmon
    * Where no solution is found friction is what is wrong, not gaps (close_gaps).
    *
    * Operator has apply(t, y): y = A t. Preconditioner has reinit(faces, c) and then apply(r, z): z
-   * close to (A + curvatures + c)^{-1} r in the free directions, or is_exact().
+   * close to (A + curvatures + c)^{-1} r in the free directions, or is_exact(); is_made_for(faces,
+   * c) tells whether reinit() would do nothing.
    */
   template <typename Operator, typename Preconditioner>
   class SemismoothNewton
@@ -84,6 +87,8 @@ namespace akmon
       for (Vector *const v : {&r, &direction, &image, &remainder})
         v->resize(n);
       data->start_is_reference ? problem.set_reference(t) : problem.clear_reference();
+      if (!data->start_is_reference)
+        approach(t);
       double residual = solve_with(data->compliance, 4, Effort::usual, t);
       if (residual > data->sufficient && is_allowed())
         {
@@ -96,6 +101,24 @@ namespace akmon
       for (std::size_t i = 0; i < n; ++i) // what the tolerance left
         t[i] = CoulombFace::project(t[i], problem.limit_of(i, t[i]));
       return {problem.applications(), residual, converged};
+    }
+
+    // Most faces that change settle in a few projected gradient steps. Factors of large matrices
+    // cost more, unless there are some that fit.
+    void
+    approach(Vector &t)
+    {
+      constexpr std::size_t many     = 60; // pairs
+      constexpr unsigned int n_steps = 20;
+
+      if (t.size() <= many)
+        return;
+      problem.set_compliance(data->compliance);
+      problem.evaluate(t);
+      choose_faces(t, 1.);
+      if (!precondition->is_made_for(faces, data->compliance))
+        for (unsigned int k = 0; k < n_steps && is_allowed(); ++k)
+          problem.descend(t);
     }
 
     bool
@@ -169,9 +192,8 @@ namespace akmon
     {
       constexpr double part = 0.05; // of the residual, while limits still change
       // Steps without improvement that tell of a circle.
-      constexpr unsigned int patience_of_limits = 8, patience_between = 3;
+      constexpr unsigned int patience = 8, patience_between = 3;
       const bool thorough            = effort != Effort::usual;
-      const unsigned int patience    = thorough ? 8 : 4;
       const unsigned int most_limits = thorough ? 50 : 6;
 
       problem.free_limits();
@@ -183,7 +205,7 @@ namespace akmon
           const double while_changing = std::max(enough, part * residual);
           if (thorough)
             descend(t, while_changing);
-          else if (find_faces(t, while_changing, patience_of_limits, effort) > while_changing)
+          else if (find_faces(t, while_changing, patience, effort) > while_changing)
             break;
           problem.free_limits();
           t_of_limits = t;
