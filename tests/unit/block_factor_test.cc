@@ -104,7 +104,7 @@ namespace block_factor_test
   TEST(BlockFactor, solves)
   {
     BlockFactor factor;
-    for (const unsigned int m : {1U, 2U, 12U, 5U}) // larger and smaller ones in turn
+    for (const unsigned int m : {1U, 2U, 16U, 5U}) // larger and smaller ones in turn
       for (const bool symmetric : {true, false})
         {
           Grid grid(m, symmetric);
@@ -114,28 +114,6 @@ namespace block_factor_test
           EXPECT_LT(error,
                     1e-13 * Eigen::PartialPivLU<Eigen::MatrixXd>(grid.matrix).inverse().norm());
         }
-  }
-
-
-  // Minimum degree keeps factors sparse: of a chain, numbered at random, no more is there than in
-  // the matrix.
-  TEST(BlockFactor, has_little_fill)
-  {
-    const unsigned int n = 101;
-    std::vector<BlockFactor::Block> diagonal(n);
-    for (auto &block : diagonal)
-      for (unsigned int i = 0; i < 3; ++i)
-        block.rows[i][i] = 3.;
-    BlockFactor::Block one;
-    for (unsigned int i = 0; i < 3; ++i)
-      one.rows[i][i] = -1.;
-    std::vector<BlockFactor::Coupling> couplings;
-    const auto number = [&](const unsigned int i) { return (37 * i) % n; };
-    for (unsigned int i = 0; i + 1 < n; ++i)
-      couplings.push_back({number(i), number(i + 1), one, one});
-    BlockFactor factor;
-    ASSERT_TRUE(factor.compute(diagonal, couplings));
-    EXPECT_EQ(factor.n_entries(), n - 1);
   }
 
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include <akmon/contact/coupled/buckets.h>
+#include <akmon/contact/coupled/elimination_fronts.h>
+#include <akmon/contact/coupled/front_panel.h>
 
 #include <array>
 #include <vector>
@@ -8,11 +9,12 @@
 namespace akmon
 {
   /**
-   * Triangular factors of a sparse matrix of 3 x 3 blocks whose pattern is symmetric,
-   * A = (1 + L) D (1 + D^{-1} U), without pivoting: for matrices that are close to positive
-   * definite ones. Rows are ordered for little fill by approximate minimum degree (Amestoy, Davis
-   * and Duff, SIAM J. Matrix Anal. Appl. 17, 1996); each is found from those above it, along the
-   * elimination tree (up-looking; Davis, Direct Methods for Sparse Linear Systems, 2006, ch. 4).
+   * Triangular factors of a sparse matrix of 3 x 3 blocks whose pattern is symmetric, without
+   * pivoting: for matrices that are close to positive definite ones. Found front by front
+   * (EliminationFronts), in each by panels of columns:
+   *
+   *     F = (A B)   A = L U,   L' = -C U^{-1},   U' = -L^{-1} B,   and what is left: D - L' U'
+   *         (C D)
    */
   class BlockFactor
   {
@@ -39,10 +41,6 @@ namespace akmon
     bool
     compute(const std::vector<Block> &diagonal, const std::vector<Coupling> &couplings);
 
-    /// Number of blocks of L, which are as many as those of U.
-    std::size_t
-    n_entries() const;
-
     using Vector = std::vector<std::array<double, 3>>;
 
     /// Three numbers for each block row.
@@ -50,28 +48,60 @@ namespace akmon
     solve_in_place(Vector &values) const;
 
   private:
-    // L_ik and U_ki of a column k, i below it.
-    struct Entry
+    using Front = EliminationFronts::Front;
+
+    // A range of rows of a front that come one after the other in its parent.
+    struct Run
     {
-      unsigned int row;
-      Block lower, upper;
+      std::size_t begin, size, begin_in_parent;
+    };
+
+    // Where L^{-1}, U^{-1}, L' and U' of a panel are among the factors.
+    template <typename Number>
+    struct Parts
+    {
+      Parts(Number *const values, const std::size_t width, const std::size_t n_below);
+
+      static std::size_t
+      size(const std::size_t width, const std::size_t n_below);
+
+      Columns<Number> inverse_L, inverse_U, lower, upper;
     };
 
     void
-    find_order(const unsigned int n, const std::vector<Coupling> &couplings);
+    take_entries(const unsigned int f,
+                 const std::vector<Block> &diagonal,
+                 const std::vector<Coupling> &couplings);
     void
-    take_row(const unsigned int i, const std::vector<Coupling> &couplings);
+    take_changes(const Front &child);
+    bool
+    eliminate(const Front &front);
     void
-    mark_up_from(unsigned int k, const unsigned int i);
+    leave_changes(const Front &front);
+    void
+    load(const Front &front) const;
+    void
+    store(const Front &front, const bool all) const;
+    const double *
+    go_forward(const Front &front, const double *factor) const;
+    const double *
+    go_backward(const Front &front, const double *factor) const;
+    void
+    multiply(const ConstPanel &A, const std::size_t first, const std::size_t width) const;
 
-    std::vector<unsigned int> positions; ///< in the elimination, by row of A
-    Buckets couplings_at;                ///< by the position that comes later
-    std::vector<std::vector<Entry>> columns;
-    std::vector<Block> inverses; ///< D^{-1}
+    EliminationFronts fronts;
+    std::vector<unsigned int> rows; ///< of A, by position
+    std::vector<double> factors;    ///< of the panels
 
     // Scratch.
-    std::vector<Block> row, column; ///< of the position in work: A_ij and A_ji, less what is known
-    std::vector<unsigned int> parents, marks, reach;
-    mutable Vector permuted;
+    std::vector<EliminationFronts::Edge> edges;
+    std::vector<double> values;      ///< of the front in work, by columns
+    std::size_t stride = 0;          ///< of these
+    std::vector<std::size_t> row_of; ///< in that front, by position
+    std::vector<unsigned int> open;  ///< fronts that have left changes, the last one's last
+    std::vector<double> changes;     ///< of these
+    std::vector<Run> runs;
+    mutable Vector permuted;              ///< by position
+    mutable std::vector<double> of_front; ///< the rows of one
   };
 } // namespace akmon

@@ -148,14 +148,14 @@ namespace akmon
     };
 
     // What unit forces of a member along its free directions, and the forces of slip that follow
-    // them, do to a node, s_i N_ik L e, and the motions that are the pair's along e,
-    // s_i M_k^{-1} N_ik e.
+    // them, do to a node, s_i N_ik L e, by component with a column for each direction, and the
+    // motions that are the pair's along e, s_i M_k^{-1} N_ik e.
     struct Entry
     {
       unsigned int node;
       unsigned int member;
-      unsigned int n; ///< free directions of it
-      std::array<dealii::Tensor<1, 3>, 3> force, increment;
+      std::array<BlockFactor::Row, 3> force;
+      std::array<dealii::Tensor<1, 3>, 3> increment;
     };
 
     bool

@@ -2,7 +2,7 @@
 
 #include <akmon/contact/coupled/coulomb_faces.h>
 #include <akmon/contact/coupled/frictional_problem.h>
-#include <akmon/contact/coupled/gmres.h>
+#include <akmon/contact/coupled/newton_step.h>
 
 #include <algorithm>
 #include <array>
@@ -64,6 +64,7 @@ namespace akmon
       data         = &new_data;
       precondition = &new_precondition;
       problem.begin(*data, op);
+      step.begin(*data, problem, new_precondition);
       std::swap(faces, faces_of_t);
       const Result result = run(t);
       std::swap(faces, faces_of_t);
@@ -84,8 +85,6 @@ namespace akmon
       if (!data->start_is_reference)
         faces.clear();
       faces.resize(n);
-      for (Vector *const v : {&r, &direction, &image, &remainder})
-        v->resize(n);
       data->start_is_reference ? problem.set_reference(t) : problem.clear_reference();
       if (!data->start_is_reference)
         approach(t);
@@ -121,10 +120,16 @@ namespace akmon
           problem.descend(t);
     }
 
+    unsigned int
+    applications_left() const
+    {
+      return most_applications - std::min(problem.applications(), most_applications);
+    }
+
     bool
     is_allowed() const
     {
-      return problem.applications() < most_applications;
+      return applications_left() > 0;
     }
 
     enum class Effort
@@ -263,7 +268,10 @@ namespace akmon
                 }
               if (!is_allowed())
                 break;
-              newton_step(t, changed && !thorough ? while_changing : attempt.reduction);
+              step.take(faces,
+                        changed && !thorough ? while_changing : attempt.reduction,
+                        applications_left(),
+                        t);
             }
           t = t_best;
           problem.evaluate(t);
@@ -289,7 +297,7 @@ namespace akmon
           const Vector before = t;
           const double phi    = problem.potential(t);
           choose_faces(t, 1.);
-          newton_step(t, reduction);
+          step.take(faces, reduction, applications_left(), t);
           const Vector reached = t;
           bool falls           = false;
           double part          = 1.;
@@ -346,77 +354,13 @@ namespace akmon
       return changed;
     }
 
-    // t + p with w + (A + c) p = 0 in the free components, where turning along a circle counts with
-    // its curvature.
-    void
-    newton_step(Vector &t, const double reduction)
-    {
-      double weighted = 0.;
-      for (std::size_t i = 0; i < t.size(); ++i)
-        {
-          r[i]     = -faces[i].restrict_to(problem.motion()[i]);
-          weighted = std::max(weighted, data->weights[i] * r[i].norm());
-        }
-      precondition->reinit(faces, problem.get_compliance());
-      if (precondition->is_exact())
-        {
-          precondition_on_faces(r, direction);
-          apply_on_faces(direction, image, remainder);
-        }
-      else
-        solve_on_faces(reduction, weighted);
-      for (std::size_t i = 0; i < t.size(); ++i)
-        t[i] += direction[i];
-      problem.update(image);
-    }
-
-    // By GMRES: direction and image.
-    void
-    solve_on_faces(const double reduction, const double weighted)
-    {
-      constexpr unsigned int dimension = 80;
-
-      const double norm = std::sqrt(Gmres::product(r, r));
-      const double goal = weighted > 0. ? 0.15 * data->tolerance / weighted : 1.;
-      gmres.solve([&](Vector &p, Vector &of_p, Vector &y) { apply_on_faces(p, of_p, y); },
-                  [&](const Vector &v, Vector &z) { precondition_on_faces(v, z); },
-                  r,
-                  std::max(reduction, goal) * norm,
-                  std::min(dimension,
-                           most_applications -
-                             std::min(problem.applications(), most_applications)));
-      gmres.combine(direction, image);
-    }
-
-    void
-    precondition_on_faces(const Vector &v, Vector &z)
-    {
-      precondition->apply(v, z);
-      for (std::size_t i = 0; i < v.size(); ++i)
-        z[i] = faces[i].restrict_to(z[i]);
-    }
-
-    // Takes p from its free components to changes of forces.
-    void
-    apply_on_faces(Vector &p, Vector &of_p, Vector &y)
-    {
-      for (std::size_t i = 0; i < p.size(); ++i)
-        {
-          y[i] = (faces[i].curvature * (p[i] * faces[i].along)) * faces[i].along;
-          p[i] = faces[i].lift(p[i]);
-        }
-      problem.apply(p, of_p);
-      for (std::size_t i = 0; i < p.size(); ++i)
-        y[i] += faces[i].restrict_to(of_p[i]);
-    }
-
     const Problem *data          = nullptr;
     Preconditioner *precondition = nullptr;
     CompliantProblem<Operator> problem;
-    Gmres gmres;
+    NewtonStep<Operator, Preconditioner> step;
     unsigned int most_applications = 0;
     unsigned int n_relaxations     = 0; ///< in the next relaxation
     std::vector<CoulombFace> faces;
-    Vector t_best, t_of_limits, r, direction, image, remainder;
+    Vector t_best, t_of_limits;
   };
 } // namespace akmon
