@@ -15,22 +15,23 @@ namespace akmon
                         const Bonds *const bonds,
                         const double effective_mass_factor)
   {
-    constexpr std::size_t most_assembled = 32; // pairs
+    // Pairs. Of rigid bodies, which couple many that share nothing else, more.
+    constexpr std::size_t most_assembled = 20;
 
     result                     = {0, 0., true};
     problem.start_is_reference = false;
-    if (!bonds && members.size() <= most_assembled)
-      {
-        delassus.assemble(members, effective_mass_factor);
-        preconditioner.set_matrix(delassus);
-      }
+    mass_factor                = effective_mass_factor;
+    has_bonds                  = bonds != nullptr;
+    if (!has_bonds && (members.size() <= most_assembled ||
+                       (members.size() <= most_swept && has_rigid_bodies(first_common_id))))
+      assemble();
     else
       {
         number_nodes(first_common_id);
-        delassus.reinit(pairs, mobility, effective_mass_factor);
-        if (bonds)
+        delassus.reinit(pairs, mobility, mass_factor);
+        if (has_bonds)
           delassus.set_bonds(*bonds, ids);
-        preconditioner.set_pairs(pairs, delassus, mobility, effective_mass_factor);
+        preconditioner.set_pairs(pairs, delassus, mobility, mass_factor);
       }
     problem.norm = delassus.norm_bound();
     problem.friction.clear();
@@ -45,6 +46,25 @@ namespace akmon
         problem.weights.push_back(s > 0. ? 1. / (s * pair.size) : 0.);
         tau.push_back(s > 0. ? delassus.frame(i) * pair.force() / s : Tensor<1, 3>());
       }
+  }
+
+
+  bool
+  ContactIsland::has_rigid_bodies(const ContactNodes::Id first_common_id) const
+  {
+    return std::any_of(members.begin(), members.end(), [&](const ClosingPair *const member) {
+      return std::any_of(member->ids.begin(),
+                         member->ids.begin() + member->pair->n_nodes,
+                         [&](const ContactNodes::Id id) { return id >= first_common_id; });
+    });
+  }
+
+
+  void
+  ContactIsland::assemble()
+  {
+    delassus.assemble(members, mass_factor);
+    preconditioner.set_matrix(delassus);
   }
 
 
@@ -120,7 +140,7 @@ namespace akmon
     problem.start_is_reference = true; // of the next gaps of the same step
     if (!result.converged && !problem.rubs())
       solve_one_by_one();
-    else if (!result.converged && delassus.matrix().size() > 0)
+    else if (!result.converged && !has_bonds && members.size() <= most_swept)
       start_elsewhere(parameters.limit, newton);
     if (!result.converged && problem.rubs() && result.residual > nearly &&
         largest_overlap() > problem.sufficient)
@@ -168,6 +188,8 @@ namespace akmon
   {
     constexpr unsigned int n_sweeps = 200;
 
+    if (delassus.matrix().size() == 0)
+      assemble();
     auto best                   = tau;
     Newton::Result best_result  = result;
     unsigned int n_applications = result.n_applications;

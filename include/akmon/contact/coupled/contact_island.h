@@ -99,6 +99,13 @@ namespace akmon
     // A residual that the rounding of constraints that repeat each other explains.
     static constexpr double nearly = 1e-8;
 
+    // Pairs, where Newton steps need a better start: sweeps take the matrix.
+    static constexpr std::size_t most_swept = 32;
+
+    bool
+    has_rigid_bodies(const ContactNodes::Id first_common_id) const;
+    void
+    assemble();
     void
     number_nodes(const ContactNodes::Id first_common_id);
     void
@@ -115,6 +122,8 @@ namespace akmon
     solve_one_by_one();
 
     ClosingPairs members;
+    double mass_factor = 1.;
+    bool has_bonds     = false;
     std::vector<ContactPair> pairs; ///< with numbers of the island, if the operator is no matrix
     std::vector<ContactNodes::Id> ids;
     Mobility mobility;
