@@ -144,7 +144,8 @@ namespace akmon
     Matrix3<N> L[n_points];
     N smallest_jacobian; ///< least det J_1, or the cell's volume if that is less
 
-    // In two loops and unrolled, so that the long chains of operations of different points overlap.
+    // The first loop is short and unrolled, so that the long chains of operations of different
+    // points overlap. All loops over the points unrolled fill the cache of instructions.
     template <bool mean_dilatation>
     [[gnu::always_inline]] inline void
     compute(const CellGeometry<N> &cell)
@@ -165,7 +166,7 @@ namespace akmon
             stretch[q] = cube_root_near_one(N(mean_J * jacobian_begin[q] / jacobian_end[q])) - 1.;
           J[q] = mean_dilatation ? mean_J : N(jacobian_end[q] / jacobian_begin[q]);
         }
-#pragma GCC unroll 8
+#pragma GCC unroll 1
       for (unsigned int q = 0; q < n_points; ++q)
         {
           const Matrix3<N> J_1 = cell.end.at(q), dJ = cell.increment.at(q);
@@ -204,7 +205,7 @@ namespace akmon
     constexpr unsigned int n_components = Symmetric3<N>::n_components + Law::n_internals;
 
     N pressure_volume(0.), internal_work(0.), plastic_work(0.), strain_squared(0.);
-#pragma GCC unroll 8
+#pragma GCC unroll 1
     for (unsigned int q = 0; q < CellBatches::n_gauss_points; ++q)
       {
         double *const point = state + q * n_components * n_lanes_of<N>;
@@ -253,7 +254,7 @@ namespace akmon
   {
     TrilinearGradients<N> weights;
     weights.clear();
-#pragma GCC unroll 8
+#pragma GCC unroll 1
     for (unsigned int q = 0; q < CellBatches::n_gauss_points; ++q)
       {
         const double *const point = state + q * n_components * n_lanes_of<N>;
