@@ -20,7 +20,13 @@ namespace akmon
     std::array<Vector, 3> edges;   ///< unit vectors, the last is the segment's normal
     std::array<N, 3> half_lengths; ///< of the edges, around the middle; length
 
+    FaceBox() = default;
+
     explicit FaceBox(const std::array<Vector, 4> &corners);
+
+    /// The boxes in the first lanes, one by one.
+    void
+    split(const unsigned int n, FaceBox<double> *boxes) const;
 
     /// How far the box ends before a point in one of its directions.
     N
@@ -69,6 +75,28 @@ namespace akmon
       return {{factor * a[0], factor * a[1], factor * a[2]}};
     }
   };
+
+
+  template <typename N>
+  void
+  FaceBox<N>::split(const unsigned int n, FaceBox<double> *const boxes) const
+  {
+    alignas(lane_alignment) double values[n_lanes];
+    const auto copy = [&](const N &number, const auto &place) {
+      store(number, values);
+      for (unsigned int lane = 0; lane < n; ++lane)
+        place(boxes[lane]) = values[lane];
+    };
+    copy(area, [](FaceBox<double> &box) -> double & { return box.area; });
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        copy(middle[d], [d](FaceBox<double> &box) -> double & { return box.middle[d]; });
+        copy(half_lengths[d],
+             [d](FaceBox<double> &box) -> double & { return box.half_lengths[d]; });
+        for (unsigned int i = 0; i < 3; ++i)
+          copy(edges[d][i], [d, i](FaceBox<double> &box) -> double & { return box.edges[d][i]; });
+      }
+  }
 
 
   // The segment is in the convex hull of its corners, and that in the box.
