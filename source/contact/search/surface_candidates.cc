@@ -5,6 +5,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 // The master faces that a slave may meet before candidates are looked for again.
@@ -131,18 +132,18 @@ namespace akmon
   {
     const unsigned int body = discretization.body_of_node[slaves[slave].node];
     const auto point        = x[slaves[slave].number];
+    const double radius_2   = search_radius * search_radius;
     bool has_outward        = false;
     Tensor<1, 3> outward;
     grid.visit_holding(point, [&](const unsigned int f) {
-      const FaceBox<double> &box = boxes_of_masters[f];
-      const double at_least      = box.bound_of_distance(components(point));
-      if (at_least > search_radius)
+      const double at_least_2 = boxes_of_masters[f].bound_of_square(components(point));
+      if (at_least_2 > radius_2)
         return;
       if (!has_outward)
         outward = slave_normal(x, slave);
       has_outward = true;
       if (may_face(f, slave, outward) && !(fetched[f].body == body && is_in_front_of(point, f)))
-        candidates.push_back({f, 0, at_least});
+        candidates.push_back({f, 0, std::sqrt(at_least_2)});
     });
   }
 

@@ -3,6 +3,7 @@
 #include <akmon/simd.h>
 
 #include <array>
+#include <cmath>
 
 namespace akmon
 {
@@ -32,23 +33,32 @@ namespace akmon
     N
     beyond(const Vector &from_middle, const unsigned int d) const
     {
-      return maximum(N(0.), magnitude(dot(edges[d], from_middle)) - half_lengths[d]);
+      const N length = magnitude(dot(edges[d], from_middle)) - half_lengths[d];
+      return 0.5 * (length + magnitude(length)); // no less than zero, without a branch
     }
 
     /// No point of the segment is closer to a point.
     N
     bound_of_distance(const Vector &point) const
     {
+      return square_root(bound_of_square(point));
+    }
+
+    /// The same squared.
+    N
+    bound_of_square(const Vector &point) const
+    {
       const Vector from_middle = difference(point, middle);
       const Vector outside{
         {beyond(from_middle, 0), beyond(from_middle, 1), beyond(from_middle, 2)}};
-      return square_root(dot(outside, outside));
+      return dot(outside, outside);
     }
 
     static N
     magnitude(const N &a)
     {
-      return maximum(a, -a);
+      using std::abs;
+      return abs(a);
     }
 
     static N

@@ -164,12 +164,6 @@ namespace akmon
       unsigned int slave, pair;
     };
 
-    // What a slave has around it: the largest of its pairs of bodies; length.
-    struct Motion
-    {
-      double increment = 0., approach = 0.;
-    };
-
     // A slave that may be within its reach of a face.
     struct Look
     {
@@ -361,7 +355,6 @@ namespace akmon
     std::vector<Memory> memories;                       ///< by slave
     std::vector<BodyPair> body_pairs;
     std::vector<PairAround> pairs_around; ///< by slave
-    std::vector<Motion> motions_around;   ///< by slave, in this step
     std::vector<Look> looks;              ///< in this search
     std::vector<Near> near;               ///< in this search, the first n_near ones
     unsigned int n_near = 0;
