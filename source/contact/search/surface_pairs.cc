@@ -231,6 +231,8 @@ namespace akmon
       {
         if (i + prefetched < looks.size())
           prefetch_face(memories[looks[i + prefetched].slave].face);
+        if (i + prefetched / 2 < looks.size()) // once the face is there
+          prefetch_corners(x, memories[looks[i + prefetched / 2].slave].face);
         find_pairs_of(x, looks[i].slave, looks[i].reach, pairs);
       }
   }

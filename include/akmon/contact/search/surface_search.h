@@ -221,6 +221,13 @@ namespace akmon
         __builtin_prefetch(&masters[face]);
     }
     void
+    prefetch_corners(const ContactNodes::Field &x, const unsigned int face) const
+    {
+      if (face < masters.size())
+        for (const unsigned int node : masters[face].nodes)
+          x.prefetch(node);
+    }
+    void
     collect_slaves();
     RankRegions
     regions_of_slaves(const NodalVector &x) const;
