@@ -24,7 +24,7 @@ namespace face_box_test
       Segment corners;
       for (unsigned int k = 0; k < 4; ++k)
         corners[k] = point(0.2) +
-                     dealii::Tensor<1, 3>({k == 1 || k == 2 ? 1. : 0., k / 2 * 1., 0.});
+                     dealii::Tensor<1, 3>({k == 1 || k == 2 ? 1. : 0., k < 2 ? 0. : 1., 0.});
       return corners;
     }
 
