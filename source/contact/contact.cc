@@ -67,6 +67,26 @@ namespace akmon
   }
 
 
+  // Whether all that is within a reach is among the candidates. Bodies may be closer to where they
+  // were when these were found than the sum of their increments tells.
+  bool
+  Contact::candidates_hold(const NodalState &state, const double reach, const bool has_features)
+  {
+    constexpr double most = 0.75; // of what is left: else they are asked again soon
+
+    const double left = least_radius_of_searches() - reach;
+    if (!prepared || moved <= left)
+      return prepared;
+    if (has_features) // rigid bodies move too
+      return false;
+    const double since = motions.approach_since_mark(state);
+    if (since > most * left)
+      return false;
+    moved = since;
+    return true;
+  }
+
+
   // The forces of the coming step, which may move surfaces, are not known yet: several times what
   // any node does now is looked at, surfaces at rest that are pushed from inside included.
   void
@@ -95,7 +115,7 @@ namespace akmon
         reach       = std::max(reach, least_reach);
       }
     const double reach_of_all = std::max(reach, reach_of_features(state, reach_of_obstacles));
-    if (!prepared || moved + reach_of_all > least_radius)
+    if (!candidates_hold(state, reach_of_all, has_features))
       rebuild_candidates(state, reach_of_all);
     if (state.step == 0) // bodies may be about to start
       for (const auto &search : searches)
@@ -208,6 +228,7 @@ namespace akmon
       edge_searches[i].build_candidates(nodes, x, radius_of_edges(i));
     for (auto &search : feature_searches)
       search.build_candidates(nodes, x);
+    motions.mark(state);
     moved    = 0.;
     prepared = true;
   }

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "support/coupled_boxes.h"
 
 // What the search is told of the motion of two bodies.
@@ -110,5 +112,57 @@ namespace body_motions_test
     EXPECT_NEAR(flight.motions.around(1), std::sqrt(45.), 1e-14);
     EXPECT_NEAR(flight.motions.within(1), std::sqrt(45.), 1e-14);
     EXPECT_EQ(flight.motions.approach(1, 1), 0.);
+  }
+
+
+  // The first body is (3, 0, 4) further, one of its nodes 2 more: that is 1 from the middle of its
+  // displacements, (3, 0, 5).
+  TEST(BodyMotions, since_a_mark_are_seen_from_the_middle_of_displacements)
+  {
+    Flight flight;
+    auto &state = flight.boxes.state;
+    flight.motions.mark(state);
+    EXPECT_EQ(flight.motions.approach_since_mark(state), 0.);
+    state.x += state.dx;
+    EXPECT_NEAR(flight.motions.approach_since_mark(state), std::sqrt(34.) + 2., 1e-13);
+    flight.motions.mark(state);
+    EXPECT_EQ(flight.motions.approach_since_mark(state), 0.);
+  }
+
+
+  // For any motion no two nodes have come closer by more.
+  TEST(BodyMotions, since_a_mark_bound_how_much_closer_nodes_have_come)
+  {
+    Flight flight;
+    auto &state       = flight.boxes.state;
+    const auto before = state.x;
+    flight.motions.mark(state);
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(-1., 1.);
+    for (unsigned int i = 0; i < 10; ++i)
+      {
+        for (const unsigned int node : flight.surface_nodes)
+          for (unsigned int d = 0; d < 3; ++d)
+            state.x[3 * node + d] += (i + 1.) * uniform(random);
+        double closest = 0.;
+        for (const unsigned int a : flight.surface_nodes)
+          for (const unsigned int b : flight.surface_nodes)
+            closest = std::max(closest,
+                               (at_node(before, a) - at_node(before, b)).norm() -
+                                 (at_node(state.x, a) - at_node(state.x, b)).norm());
+        EXPECT_LE(closest, flight.motions.approach_since_mark(state));
+      }
+  }
+
+
+  // What swings is where it was.
+  TEST(BodyMotions, to_and_fro_are_no_approach_since_a_mark)
+  {
+    Flight flight;
+    auto &state = flight.boxes.state;
+    flight.motions.mark(state);
+    for (unsigned int i = 0; i < 8; ++i)
+      state.x.add(i % 2 ? -1. : 1., state.dx);
+    EXPECT_NEAR(flight.motions.approach_since_mark(state), 0., 1e-13);
   }
 } // namespace body_motions_test

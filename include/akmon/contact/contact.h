@@ -222,6 +222,8 @@ namespace akmon
     least_radius_of_searches() const;
     double
     reach_of_features(const NodalState &state, const double of_obstacles) const;
+    bool
+    candidates_hold(const NodalState &state, const double reach, const bool has_features);
     void
     rebuild_candidates(const NodalState &state, const double reach);
     void

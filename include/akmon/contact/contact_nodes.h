@@ -119,6 +119,13 @@ namespace akmon
         return dealii::Tensor<1, 3>({value[0], value[1], value[2]});
       }
 
+      /// Fetch a value from memory that will be read soon.
+      void
+      prefetch(const unsigned int number) const
+      {
+        __builtin_prefetch(&values[3 * std::size_t(number)]);
+      }
+
       void
       add(const unsigned int number, const dealii::Tensor<1, 3> &increment)
       {

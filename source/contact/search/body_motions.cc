@@ -5,10 +5,30 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace akmon
 {
   using namespace dealii;
+
+  namespace
+  {
+    // No two of n vectors differ by more than the corners of the box around all of them.
+    template <typename Vectors>
+    double
+    widest_difference(const unsigned int n, const Vectors &vector)
+    {
+      Tensor<1, 3> lower = vector(0), upper = lower;
+      for (unsigned int i = 1; i < n; ++i)
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            lower[d] = std::min(lower[d], vector(i)[d]);
+            upper[d] = std::max(upper[d], vector(i)[d]);
+          }
+      return (upper - lower).norm();
+    }
+  } // namespace
+
 
   BodyMotions::BodyMotions(const Discretization &discretization,
                            const std::vector<unsigned int> &surface_nodes)
@@ -73,27 +93,69 @@ namespace akmon
   }
 
 
-  // No two means are further apart than the corners of the box around all of them.
   void
   BodyMotions::measure_largest_approach()
   {
     double of_means = 0.;
     for (const unsigned int level : {0U, 1U})
-      {
-        Tensor<1, 3> widths;
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            const auto [least, largest] = std::minmax_element(means.begin(),
-                                                              means.end(),
-                                                              [&](const auto &a, const auto &b) {
-                                                                return a[level][d] < b[level][d];
-                                                              });
-            widths[d]                   = (*largest)[level][d] - (*least)[level][d];
-          }
-        of_means = std::max(of_means, widths.norm());
-      }
+      of_means = std::max(of_means, widest_difference(means.size(), [&](const unsigned int body) {
+                            return means[body][level];
+                          }));
     const double within = *std::max_element(within_bodies.begin(), within_bodies.end());
     largest_relative    = std::min(of_means + 2. * within, 2. * largest_increment);
+  }
+
+
+  void
+  BodyMotions::mark(const NodalState &state)
+  {
+    marked.clear();
+    for (const unsigned int node : surface_nodes)
+      marked.push_back(at_node(state.x, node));
+  }
+
+
+  // By body, of the boxes around displacements.
+  std::vector<Tensor<1, 3>>
+  BodyMotions::middles_since_mark(const NodalState &state) const
+  {
+    // Greatest values of u and of -u.
+    std::vector<double> limits(6 * means.size(), std::numeric_limits<double>::lowest());
+    for (unsigned int i = 0; i < surface_nodes.size(); ++i)
+      {
+        const auto u     = at_node(state.x, surface_nodes[i]) - marked[i];
+        double *const of = &limits[6 * discretization.body_of_node[surface_nodes[i]]];
+        for (unsigned int d = 0; d < 3; ++d)
+          {
+            of[d]     = std::max(of[d], u[d]);
+            of[3 + d] = std::max(of[3 + d], -u[d]);
+          }
+      }
+    Utilities::MPI::max(limits, discretization.communicator(), limits);
+    std::vector<Tensor<1, 3>> middles(means.size());
+    for (unsigned int body = 0; body < means.size(); ++body)
+      for (unsigned int d = 0; d < 3; ++d)
+        middles[body][d] = 0.5 * (limits[6 * body + d] - limits[6 * body + 3 + d]);
+    return middles;
+  }
+
+
+  double
+  BodyMotions::approach_since_mark(const NodalState &state) const
+  {
+    const auto middles = middles_since_mark(state);
+    double within      = 0.;
+    for (unsigned int i = 0; i < surface_nodes.size(); ++i)
+      {
+        const auto u = at_node(state.x, surface_nodes[i]) - marked[i];
+        within       = std::max(within,
+                          (u - middles[discretization.body_of_node[surface_nodes[i]]])
+                            .norm_square());
+      }
+    within = std::sqrt(Utilities::MPI::max(within, discretization.communicator()));
+    return widest_difference(middles.size(),
+                             [&](const unsigned int body) { return middles[body]; }) +
+           2. * within;
   }
 
 

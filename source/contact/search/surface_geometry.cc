@@ -14,13 +14,6 @@ namespace akmon
 
   namespace
   {
-    std::array<double, 3>
-    components(const Tensor<1, 3> &vector)
-    {
-      return {{vector[0], vector[1], vector[2]}};
-    }
-
-
     // Corners of as many segments as there are lanes.
     struct LaneCorners
     {
@@ -63,27 +56,18 @@ namespace akmon
   }
 
 
-  // Whether a node of a body is in the cell behind one of the body's own faces, or further back: a
-  // cell that is pressed flat must not be taken for a body in contact with itself.
-  bool
-  SurfaceSearch::is_in_front_of(const ContactNodes::Field &x,
-                                const Tensor<1, 3> &point,
-                                const unsigned int face,
-                                const Tensor<1, 3> &normal) const
+  void
+  SurfaceSearch::box_masters(const ContactNodes::Field &x)
   {
-    constexpr double part = 0.25, beside = 0.5;
-
-    const Segment corners = segment(x, masters[face]);
-    const auto middle     = middle_of(corners);
-    if (normal * (middle - point) <= part * masters[face].depth)
-      return false;
-    std::array<FaceBox<double>::Vector, 4> components_of_corners;
-    for (unsigned int k = 0; k < 4; ++k)
-      components_of_corners[k] = components(corners[k]);
-    const FaceBox<double> box(components_of_corners);
-    const auto from_middle = components(point - middle);
-    const double beyond_0 = box.beyond(from_middle, 0), beyond_1 = box.beyond(from_middle, 1);
-    return beyond_0 * beyond_0 + beyond_1 * beyond_1 <= beside * beside * box.area;
+    LaneCorners corners;
+    boxes_of_masters.resize(masters.size());
+    for (unsigned int begin = 0; begin < masters.size(); begin += n_lanes)
+      {
+        const unsigned int n_here = std::min<unsigned int>(masters.size() - begin, n_lanes);
+        for (unsigned int lane = 0; lane < n_here; ++lane)
+          corners.set(lane, segment(x, masters[begin + lane]));
+        corners.boxes().split(n_here, &boxes_of_masters[begin]);
+      }
   }
 
 

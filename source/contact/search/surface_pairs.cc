@@ -183,23 +183,23 @@ namespace akmon
   void
   SurfaceSearch::choose_looks(const double steps, const double least_reach)
   {
-    motions_around.assign(slaves.size(), Motion());
-    for (const auto &[slave, pair] : pairs_around)
-      {
-        Motion &motion   = motions_around[slave];
-        motion.increment = std::max(motion.increment, body_pairs[pair].increment);
-        motion.approach  = std::max(motion.approach, body_pairs[pair].approach);
-      }
     looks.clear();
-    for (unsigned int s = 0; s + 1 < slaves.size(); ++s)
+    for (auto around = pairs_around.begin(); around != pairs_around.end();)
       {
-        const auto &[increment, approach] = motions_around[s];
-        memories[s].clear_of -= approach;
-        memories[s].others_clear_of -= approach;
+        const unsigned int slave = around->slave;
+        double increment = 0., approach = 0.; // the largest of its pairs of bodies
+        for (; around != pairs_around.end() && around->slave == slave; ++around)
+          {
+            const BodyPair &pair = body_pairs[around->pair];
+            increment            = std::max(increment, pair.increment);
+            approach             = std::max(approach, pair.approach);
+          }
+        Memory &memory = memories[slave];
+        memory.clear_of -= approach;
+        memory.others_clear_of -= approach;
         const double reach = std::max(least_reach, steps * increment);
-        if (memories[s].clear_of <= reach &&
-            slaves[s].first_candidate < slaves[s + 1].first_candidate)
-          looks.push_back({s, reach});
+        if (memory.clear_of <= reach)
+          looks.push_back({slave, reach});
       }
   }
 
@@ -231,6 +231,8 @@ namespace akmon
       {
         if (i + prefetched < looks.size())
           prefetch_face(memories[looks[i + prefetched].slave].face);
+        if (i + prefetched / 2 < looks.size()) // once the face is there
+          prefetch_corners(x, memories[looks[i + prefetched / 2].slave].face);
         find_pairs_of(x, looks[i].slave, looks[i].reach, pairs);
       }
   }

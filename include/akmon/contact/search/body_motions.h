@@ -33,6 +33,23 @@ namespace akmon
     void
     set_neighbours(std::vector<std::array<unsigned int, 2>> pairs);
 
+    /// Take this level for the one that approach_since_mark() looks back to.
+    void
+    mark(const NodalState &state);
+
+    /**
+     * By how much two surfaces can have approached each other since the marked level at most, of
+     * whatever bodies (collective); length. With the displacements u since then and any vector u_a
+     * for body a, here the middle of the box around its u,
+     *
+     *     |x_i - x_j| >= |x_i - x_j|_marked - |u_a - u_b| - max_a |u - u_a| - max_b |u - u_b|
+     *
+     * for points i of body a and j of body b, nodes or in faces between them. Bodies that swing
+     * come closer by their amplitudes only, for however many steps they do.
+     */
+    double
+    approach_since_mark(const NodalState &state) const;
+
     /// Largest increment of a node of any body; length
     double
     largest() const
@@ -75,6 +92,8 @@ namespace akmon
   private:
     void
     measure_means(const NodalState &state);
+    std::vector<dealii::Tensor<1, 3>>
+    middles_since_mark(const NodalState &state) const;
     void
     measure_largest_approach();
     void
@@ -88,5 +107,6 @@ namespace akmon
     std::vector<std::array<dealii::Tensor<1, 3>, 2>> means;
     std::vector<double> largest_of_bodies, within_bodies, increments, increments_within;
     std::vector<std::array<unsigned int, 2>> neighbours;
+    std::vector<dealii::Tensor<1, 3>> marked; ///< positions of the surface nodes; length
   };
 } // namespace akmon

@@ -53,16 +53,26 @@ namespace akmon
     void
     visit_holding(const dealii::Tensor<1, 3> &x, const Visit &visit) const
     {
+      constexpr unsigned int n_together = 32;
+
       const std::size_t bucket = bucket_of(cell_of(x));
       const Limits of_x(x, -x);
+      std::array<unsigned int, n_together> found;
       unsigned int last = -1;
-      for (unsigned int i = begins[bucket]; i < begins[bucket + 1]; ++i)
+      for (unsigned int begin = begins[bucket]; begin < begins[bucket + 1]; begin += n_together)
         {
-          // Several cells of a box may fall into the same bucket, where they stand together.
-          const unsigned int box = entries[i];
-          if (box != last && limits[box].allow(of_x))
-            visit(box);
-          last = box;
+          const unsigned int end = std::min(begin + n_together, begins[bucket + 1]);
+          unsigned int n_found   = 0;
+          for (unsigned int i = begin; i < end; ++i) // without a branch
+            {
+              // Several cells of a box may fall into the same bucket, where they stand together.
+              const unsigned int box = entries[i];
+              found[n_found]         = box;
+              n_found += (box != last) & limits[box].allow(of_x);
+              last = box;
+            }
+          for (unsigned int i = 0; i < n_found; ++i)
+            visit(found[i]);
         }
     }
 

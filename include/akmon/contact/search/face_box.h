@@ -3,6 +3,7 @@
 #include <akmon/simd.h>
 
 #include <array>
+#include <cmath>
 
 namespace akmon
 {
@@ -20,29 +21,44 @@ namespace akmon
     std::array<Vector, 3> edges;   ///< unit vectors, the last is the segment's normal
     std::array<N, 3> half_lengths; ///< of the edges, around the middle; length
 
+    FaceBox() = default;
+
     explicit FaceBox(const std::array<Vector, 4> &corners);
+
+    /// The boxes in the first lanes, one by one.
+    void
+    split(const unsigned int n, FaceBox<double> *boxes) const;
 
     /// How far the box ends before a point in one of its directions.
     N
     beyond(const Vector &from_middle, const unsigned int d) const
     {
-      return maximum(N(0.), magnitude(dot(edges[d], from_middle)) - half_lengths[d]);
+      const N length = magnitude(dot(edges[d], from_middle)) - half_lengths[d];
+      return 0.5 * (length + magnitude(length)); // no less than zero, without a branch
     }
 
     /// No point of the segment is closer to a point.
     N
     bound_of_distance(const Vector &point) const
     {
+      return square_root(bound_of_square(point));
+    }
+
+    /// The same squared.
+    N
+    bound_of_square(const Vector &point) const
+    {
       const Vector from_middle = difference(point, middle);
       const Vector outside{
         {beyond(from_middle, 0), beyond(from_middle, 1), beyond(from_middle, 2)}};
-      return square_root(dot(outside, outside));
+      return dot(outside, outside);
     }
 
     static N
     magnitude(const N &a)
     {
-      return maximum(a, -a);
+      using std::abs;
+      return abs(a);
     }
 
     static N
@@ -69,6 +85,28 @@ namespace akmon
       return {{factor * a[0], factor * a[1], factor * a[2]}};
     }
   };
+
+
+  template <typename N>
+  void
+  FaceBox<N>::split(const unsigned int n, FaceBox<double> *const boxes) const
+  {
+    alignas(lane_alignment) double values[n_lanes];
+    const auto copy = [&](const N &number, const auto &place) {
+      store(number, values);
+      for (unsigned int lane = 0; lane < n; ++lane)
+        place(boxes[lane]) = values[lane];
+    };
+    copy(area, [](FaceBox<double> &box) -> double & { return box.area; });
+    for (unsigned int d = 0; d < 3; ++d)
+      {
+        copy(middle[d], [d](FaceBox<double> &box) -> double & { return box.middle[d]; });
+        copy(half_lengths[d],
+             [d](FaceBox<double> &box) -> double & { return box.half_lengths[d]; });
+        for (unsigned int i = 0; i < 3; ++i)
+          copy(edges[d][i], [d, i](FaceBox<double> &box) -> double & { return box.edges[d][i]; });
+      }
+  }
 
 
   // The segment is in the convex hull of its corners, and that in the box.

@@ -6,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 namespace akmon
@@ -25,6 +26,13 @@ namespace akmon
              at_node(x, face.nodes[1]),
              at_node(x, face.nodes[2]),
              at_node(x, face.nodes[3])}};
+  }
+
+
+  inline std::array<double, 3>
+  components(const dealii::Tensor<1, 3> &vector)
+  {
+    return {{vector[0], vector[1], vector[2]}};
   }
 
 

@@ -5,6 +5,7 @@
 #include <akmon/contact/pair.h>
 #include <akmon/contact/search/body_motions.h>
 #include <akmon/contact/search/box_grid.h>
+#include <akmon/contact/search/face_box.h>
 #include <akmon/contact/search/master_face.h>
 #include <akmon/contact/search/projection.h>
 #include <akmon/contact/search/rank_regions.h>
@@ -163,12 +164,6 @@ namespace akmon
       unsigned int slave, pair;
     };
 
-    // What a slave has around it: the largest of its pairs of bodies; length.
-    struct Motion
-    {
-      double increment = 0., approach = 0.;
-    };
-
     // A slave that may be within its reach of a face.
     struct Look
     {
@@ -226,6 +221,13 @@ namespace akmon
         __builtin_prefetch(&masters[face]);
     }
     void
+    prefetch_corners(const ContactNodes::Field &x, const unsigned int face) const
+    {
+      if (face < masters.size())
+        for (const unsigned int node : masters[face].nodes)
+          x.prefetch(node);
+    }
+    void
     collect_slaves();
     RankRegions
     regions_of_slaves(const NodalVector &x) const;
@@ -249,7 +251,11 @@ namespace akmon
     void
     settle_distances(const double moved);
     void
-    find_last_faces();
+    find_last_faces(const std::vector<FaceMessage> &arrived);
+    void
+    box_masters(const ContactNodes::Field &x);
+    void
+    add_candidates_of(const ContactNodes::Field &x, const unsigned int slave);
     unsigned int
     number_of_pair(const unsigned int of_slaves,
                    const unsigned int of_faces,
@@ -285,14 +291,10 @@ namespace akmon
                  Partner &partner);
     bool
     may_face(const unsigned int face,
-             const dealii::Tensor<1, 3> &normal,
              const unsigned int slave,
              const dealii::Tensor<1, 3> &outward) const;
     bool
-    is_in_front_of(const ContactNodes::Field &x,
-                   const dealii::Tensor<1, 3> &point,
-                   const unsigned int face,
-                   const dealii::Tensor<1, 3> &normal) const;
+    is_in_front_of(const dealii::Tensor<1, 3> &point, const unsigned int face) const;
     bool
     looks_at(const unsigned int slave, const dealii::Tensor<1, 3> &area) const;
     bool
@@ -348,6 +350,7 @@ namespace akmon
     double least_radius, search_radius;
     double built_radius = 0.; ///< that the candidates have been looked for within
     std::vector<BoundaryFace> slave_faces, master_faces, faces; ///< relevant faces
+    std::vector<double> stiffness_of_masters; ///< of those faces, for penalties; force/length
 
     std::vector<Slave> slaves; ///< and one past the end
     std::vector<unsigned int> slave_face_list;
@@ -359,16 +362,15 @@ namespace akmon
     std::vector<Memory> memories;                       ///< by slave
     std::vector<BodyPair> body_pairs;
     std::vector<PairAround> pairs_around; ///< by slave
-    std::vector<Motion> motions_around;   ///< by slave, in this step
     std::vector<Look> looks;              ///< in this search
     std::vector<Near> near;               ///< in this search, the first n_near ones
     unsigned int n_near = 0;
-    std::vector<ValleyFace> valley;                         ///< of a slave
-    std::vector<FaceMessage> fetched;                       ///< sorted by id
-    std::vector<dealii::types::global_cell_index> last_ids; ///< of the memories, between two builds
-    std::vector<MasterFace> masters;                        ///< in the same order
-    BoxGrid grid;                             ///< of the master faces, widened by the radius
-    std::vector<unsigned int> faces_at_begin; ///< by contact number: first entry in faces_at
+    std::vector<ValleyFace> valley;                ///< of a slave
+    std::vector<FaceMessage> fetched;              ///< sorted by id
+    std::vector<MasterFace> masters;               ///< in the same order
+    std::vector<FaceBox<double>> boxes_of_masters; ///< when candidates were built last
+    BoxGrid grid;                                  ///< of the master faces, widened by the radius
+    std::vector<unsigned int> faces_at_begin;      ///< by contact number: first entry in faces_at
     std::vector<unsigned int> faces_at;
   };
 
