@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/contact/buckets.h>
 #include <akmon/model/discretization.h>
 
 #include <vector>
@@ -35,6 +36,6 @@ namespace akmon
 
   private:
     std::vector<BoundaryFace> faces;
-    std::vector<unsigned int> faces_at, begin; ///< faces around a node: faces_at[begin[node]] on
+    Buckets corners_at; ///< of the faces, 4 f + k, by owned node; and those of all others
   };
 } // namespace akmon

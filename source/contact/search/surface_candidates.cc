@@ -112,7 +112,9 @@ namespace akmon
         masters.push_back(face);
       }
     number_slaves(nodes);
-    collect_faces_at_nodes(nodes.size());
+    corners_at.fill(nodes.size(), 4 * masters.size(), [&](const unsigned int corner) {
+      return masters[corner / 4].nodes[corner % 4];
+    });
     grid.reinit(std::move(boxes));
     box_masters(x);
     candidates.clear();
@@ -161,23 +163,6 @@ namespace akmon
       for (unsigned int k = 0; k < 4; ++k)
         nodes_of_slave_faces[i][k] = nodes.number(
           nodes.id_of_local(slave_faces[slave_face_list[i]].nodes[k]));
-  }
-
-
-  void
-  SurfaceSearch::collect_faces_at_nodes(const unsigned int n_nodes)
-  {
-    faces_at_begin.assign(n_nodes + 1, 0);
-    for (const MasterFace &face : masters)
-      for (const unsigned int node : face.nodes)
-        ++faces_at_begin[node + 1];
-    for (unsigned int node = 0; node < n_nodes; ++node)
-      faces_at_begin[node + 1] += faces_at_begin[node];
-    faces_at.resize(faces_at_begin.back());
-    std::vector<unsigned int> next(faces_at_begin.begin(), faces_at_begin.end() - 1);
-    for (unsigned int f = 0; f < masters.size(); ++f)
-      for (const unsigned int node : masters[f].nodes)
-        faces_at[next[node]++] = f;
   }
 
 

@@ -14,8 +14,8 @@ namespace akmon
   SurfaceSearch::faces_sharing(const unsigned int node_a, const unsigned int node_b) const
   {
     unsigned int count = 0;
-    for (unsigned int i = faces_at_begin[node_a]; i < faces_at_begin[node_a + 1]; ++i)
-      for (const unsigned int node : masters[faces_at[i]].nodes)
+    for (const unsigned int corner : corners_at[node_a])
+      for (const unsigned int node : masters[corner / 4].nodes)
         count += node == node_b;
     return count;
   }
@@ -67,10 +67,9 @@ namespace akmon
       return face_normal(x, partner);
 
     Tensor<1, 3> sum;
-    for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
+    for (const unsigned int corner : corners_at[a])
       {
-        const auto &neighbour = masters[faces_at[i]].nodes;
-        const auto corner = std::find(neighbour.begin(), neighbour.end(), a) - neighbour.begin();
+        const auto &neighbour   = masters[corner / 4].nodes;
         const unsigned int next = neighbour[(corner + 1) % 4], last = neighbour[(corner + 3) % 4];
         if (projection.feature == Projection::Feature::edge)
           {
@@ -105,12 +104,12 @@ namespace akmon
     const unsigned int b  = face[(projection.where + 1) % 4];
     const double at_least = clearly * projection.offset.norm();
     std::vector<Segment> around;
-    for (unsigned int i = faces_at_begin[a]; i < faces_at_begin[a + 1]; ++i)
+    for (const unsigned int corner : corners_at[a])
       {
-        const auto &nodes = masters[faces_at[i]].nodes;
+        const auto &nodes = masters[corner / 4].nodes;
         if (projection.feature == Projection::Feature::vertex ||
             std::find(nodes.begin(), nodes.end(), b) != nodes.end())
-          around.push_back(segment(x, masters[faces_at[i]]));
+          around.push_back(segment(x, masters[corner / 4]));
       }
     bool in_front = false;
     for (const auto &one : around)

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <akmon/contact/coupled/buckets.h>
+#include <akmon/contact/buckets.h>
 
 #include <numeric>
 #include <vector>

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/contact/buckets.h>
 #include <akmon/contact/contact_nodes.h>
 #include <akmon/contact/contact_parameters.h>
 #include <akmon/contact/pair.h>
@@ -247,8 +248,6 @@ namespace akmon
     void
     number_slaves(const ContactNodes &nodes);
     void
-    collect_faces_at_nodes(const unsigned int n_nodes);
-    void
     settle_distances(const double moved);
     void
     find_last_faces(const std::vector<FaceMessage> &arrived);
@@ -370,8 +369,7 @@ namespace akmon
     std::vector<MasterFace> masters;               ///< in the same order
     std::vector<FaceBox<double>> boxes_of_masters; ///< when candidates were built last
     BoxGrid grid;                                  ///< of the master faces, widened by the radius
-    std::vector<unsigned int> faces_at_begin;      ///< by contact number: first entry in faces_at
-    std::vector<unsigned int> faces_at;
+    Buckets corners_at; ///< of the master faces, 4 f + k, by contact number
   };
 
 
@@ -382,8 +380,8 @@ namespace akmon
   SurfaceSearch::visit_neighbours(const unsigned int face, const Visit &visit) const
   {
     for (const unsigned int node : masters[face].nodes)
-      for (unsigned int i = faces_at_begin[node]; i < faces_at_begin[node + 1]; ++i)
-        if (faces_at[i] != face)
-          visit(faces_at[i]);
+      for (const unsigned int corner : corners_at[node])
+        if (corner / 4 != face)
+          visit(corner / 4);
   }
 } // namespace akmon
