@@ -6,7 +6,7 @@
 
 namespace akmon
 {
-  /// Rows of Lanes that hold n numbers.
+  /// The numbers in as many Lanes as n need.
   constexpr std::size_t
   padded(const std::size_t n)
   {
