@@ -91,6 +91,11 @@ namespace semismooth_newton_test
     void
     reinit(const std::vector<CoulombFace> &new_faces, const double)
     {
+      n_changes += !std::equal(new_faces.begin(),
+                               new_faces.end(),
+                               faces.begin(),
+                               faces.end(),
+                               alike);
       faces = new_faces;
     }
 
@@ -110,12 +115,14 @@ namespace semismooth_newton_test
       return false;
     }
 
-    static bool
-    is_made_for(const std::vector<CoulombFace> &, const double)
+    bool
+    is_made_for(const std::vector<CoulombFace> &, const double) const
     {
-      return false;
+      return fits;
     }
 
+    bool fits              = false;
+    unsigned int n_changes = 0; ///< of faces
     std::vector<CoulombFace> faces;
   };
 
@@ -132,10 +139,10 @@ namespace semismooth_newton_test
   solve(const Problem &problem,
         const std::vector<double> &friction,
         std::vector<Vector> &t,
+        Diagonal &diagonal,
         const unsigned int limit = 2000,
         const double compliance  = 1e-7)
   {
-    Diagonal diagonal;
     SemismoothNewton<const Problem, Diagonal> solver;
     std::vector<CoulombFace> faces;
     const auto result = solver.solve({problem.b,
@@ -152,6 +159,18 @@ namespace semismooth_newton_test
                                      t,
                                      faces);
     return {result.n_applications, result.residual, result.converged};
+  }
+
+
+  Result
+  solve(const Problem &problem,
+        const std::vector<double> &friction,
+        std::vector<Vector> &t,
+        const unsigned int limit = 2000,
+        const double compliance  = 1e-7)
+  {
+    Diagonal diagonal;
+    return solve(problem, friction, t, diagonal, limit, compliance);
   }
 
 
@@ -320,6 +339,30 @@ namespace semismooth_newton_test
         }
     report("applications, mean", sum / 100.);
     report("applications, most", most);
+  }
+
+
+  // Gradient steps before the first Newton step, where there are no factors that fit.
+  TEST(Friction, of_many_pairs_takes_fewer_new_factors)
+  {
+    unsigned int n_changes = 0, n_changes_without = 0;
+    for (unsigned int seed = 1; seed <= 5; ++seed)
+      {
+        const unsigned int n = 100;
+        const Problem problem(n, 10, seed, true);
+        const auto friction = coefficients(n, seed);
+        std::vector<Vector> t(n), t_without(n);
+        Diagonal diagonal, fitting;
+        fitting.fits = true;
+        ASSERT_TRUE(solve(problem, friction, t, diagonal, 20000).converged) << seed;
+        ASSERT_TRUE(solve(problem, friction, t_without, fitting, 20000).converged) << seed;
+        expect_conditions(problem, friction, t, seed);
+        n_changes += diagonal.n_changes;
+        n_changes_without += fitting.n_changes;
+      }
+    report("changes of faces", n_changes);
+    report("changes of faces without gradient steps", n_changes_without);
+    EXPECT_LT(n_changes, 0.9 * n_changes_without);
   }
 
 
