@@ -1,5 +1,6 @@
 #include <akmon/contact/coupled/gather.h>
 #include <akmon/contact/search/body_motions.h>
+#include <akmon/contact/search/box_grid.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -18,14 +19,10 @@ namespace akmon
     double
     widest_difference(const unsigned int n, const Vectors &vector)
     {
-      Tensor<1, 3> lower = vector(0), upper = lower;
+      BoxGrid::Box box{vector(0), vector(0)};
       for (unsigned int i = 1; i < n; ++i)
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            lower[d] = std::min(lower[d], vector(i)[d]);
-            upper[d] = std::max(upper[d], vector(i)[d]);
-          }
-      return (upper - lower).norm();
+        box.include(vector(i));
+      return (box.upper - box.lower).norm();
     }
   } // namespace
 

@@ -1,7 +1,7 @@
 #include <akmon/contact/coupled/gather.h>
 #include <akmon/contact/search/rank_regions.h>
 
-#include <algorithm>
+#include <utility>
 
 namespace akmon
 {
@@ -19,12 +19,7 @@ namespace akmon
         n_in_last = 0;
       }
     ++n_in_last;
-    auto &box = regions.back().box;
-    for (unsigned int d = 0; d < 3; ++d)
-      {
-        box.lower[d] = std::min(box.lower[d], point[d]);
-        box.upper[d] = std::max(box.upper[d], point[d]);
-      }
+    regions.back().box.include(point);
   }
 
 
@@ -34,11 +29,7 @@ namespace akmon
     for (auto &region : regions)
       {
         region.rank = Utilities::MPI::this_mpi_process(communicator);
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            region.box.lower[d] -= margin;
-            region.box.upper[d] += margin;
-          }
+        region.box.widen(margin);
       }
     regions = gather(regions, communicator);
     std::vector<BoxGrid::Box> boxes;

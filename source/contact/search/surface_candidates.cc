@@ -20,16 +20,9 @@ namespace akmon
     box_around(const Segment &corners, const double margin)
     {
       BoxGrid::Box box{corners[0], corners[0]};
-      for (unsigned int d = 0; d < 3; ++d)
-        {
-          for (const auto &corner : corners)
-            {
-              box.lower[d] = std::min(box.lower[d], corner[d]);
-              box.upper[d] = std::max(box.upper[d], corner[d]);
-            }
-          box.lower[d] -= margin;
-          box.upper[d] += margin;
-        }
+      for (const auto &corner : corners)
+        box.include(corner);
+      box.widen(margin);
       return box;
     }
   } // namespace
