@@ -1,3 +1,4 @@
+#include <akmon/model/curve_cut.h>
 #include <akmon/model/mesh_share.h>
 
 #include <algorithm>
@@ -19,53 +20,14 @@ namespace akmon
                                                                              {{4, 5, 7, 6}}}};
 
 
-    // The first cells of the ranks' stretches of the curve, and the end of the last one.
-    std::vector<types::global_cell_index>
-    cut_curve(const types::global_cell_index n_cells,
-              const ExtraWork &extra_work,
-              const unsigned int n_ranks)
-    {
-      constexpr std::uint64_t of_cell = 1000;
-      std::uint64_t all               = of_cell * n_cells;
-      for (const auto &[cell, extra] : extra_work)
-        all += extra;
-
-      std::vector<types::global_cell_index> first = {0};
-      std::uint64_t before                        = 0;
-      auto next_extra                             = extra_work.begin();
-      for (types::global_cell_index cell = 0; cell < n_cells; ++cell)
-        {
-          while (first.size() < n_ranks && before * n_ranks >= all * first.size())
-            first.push_back(cell);
-          before += of_cell;
-          if (next_extra != extra_work.end() && next_extra->first == cell)
-            before += (next_extra++)->second;
-        }
-      first.resize(n_ranks + 1, n_cells);
-      return first;
-    }
-
-
-    // Cuts a mesh into the parts of the ranks.
+    // The parts of the ranks.
     class Partition
     {
     public:
       Partition(const GlobalMesh &mesh, const ExtraWork &extra_work, const unsigned int n_ranks)
         : mesh(mesh)
-        , first_cell(cut_curve(mesh.cells.size(), extra_work, n_ranks))
-        , ghost_cells(n_ranks)
+        , cut(cut_evenly(mesh, extra_work, n_ranks))
       {
-        // Nodes are numbered as the cells along the curve come upon them.
-        types::global_dof_index n_nodes = 0;
-        for (unsigned int rank = 0; rank < n_ranks; ++rank)
-          {
-            first_node.push_back(n_nodes);
-            for (auto cell = first_cell[rank]; cell < first_cell[rank + 1]; ++cell)
-              for (const auto node : mesh.cells[cell])
-                n_nodes = std::max(n_nodes, node + 1);
-          }
-        first_node.push_back(n_nodes);
-        find_ghost_cells();
       }
 
       MeshShare
@@ -73,10 +35,10 @@ namespace akmon
       {
         MeshShare share;
         share.n_global_cells = mesh.cells.size();
-        share.n_owned_cells  = first_cell[rank + 1] - first_cell[rank];
+        share.n_owned_cells  = cut.first_cell[rank + 1] - cut.first_cell[rank];
         share.n_global_nodes = mesh.nodes.size();
-        share.first_node     = first_node[rank];
-        share.n_owned_nodes  = first_node[rank + 1] - first_node[rank];
+        share.first_node     = cut.first_node[rank];
+        share.n_owned_nodes  = cut.first_node[rank + 1] - cut.first_node[rank];
         const auto cells     = cells_of(rank);
         add_nodes(cells, share);
         for (const auto id : cells)
@@ -94,24 +56,7 @@ namespace akmon
       bool
       owns(const unsigned int rank, const types::global_cell_index cell) const
       {
-        return first_cell[rank] <= cell && cell < first_cell[rank + 1];
-      }
-
-      void
-      find_ghost_cells()
-      {
-        const unsigned int n_ranks = ghost_cells.size();
-        for (unsigned int rank = 0; rank < n_ranks; ++rank)
-          for (auto cell = first_cell[rank]; cell < first_cell[rank + 1]; ++cell)
-            for (const auto node : mesh.cells[cell])
-              if (node < first_node[rank])
-                {
-                  const auto owner = std::upper_bound(first_node.begin(), first_node.end(), node) -
-                                     first_node.begin() - 1;
-                  auto &ghosts = ghost_cells[owner];
-                  if (ghosts.empty() || ghosts.back() != cell)
-                    ghosts.push_back(cell);
-                }
+        return cut.first_cell[rank] <= cell && cell < cut.first_cell[rank + 1];
       }
 
       // By body, then in global order: a rank's ghosts are all behind its own cells on the curve,
@@ -120,10 +65,11 @@ namespace akmon
       cells_of(const unsigned int rank) const
       {
         std::vector<types::global_cell_index> cells;
-        cells.reserve(first_cell[rank + 1] - first_cell[rank] + ghost_cells[rank].size());
-        for (auto cell = first_cell[rank]; cell < first_cell[rank + 1]; ++cell)
+        cells.reserve(cut.first_cell[rank + 1] - cut.first_cell[rank] +
+                      cut.ghost_cells[rank].size());
+        for (auto cell = cut.first_cell[rank]; cell < cut.first_cell[rank + 1]; ++cell)
           cells.push_back(cell);
-        cells.insert(cells.end(), ghost_cells[rank].begin(), ghost_cells[rank].end());
+        cells.insert(cells.end(), cut.ghost_cells[rank].begin(), cut.ghost_cells[rank].end());
         std::stable_sort(cells.begin(), cells.end(), [&](const auto a, const auto b) {
           return mesh.body_of_cell[a] < mesh.body_of_cell[b];
         });
@@ -189,10 +135,7 @@ namespace akmon
       }
 
       const GlobalMesh &mesh;
-      const std::vector<types::global_cell_index> first_cell; // [rank]
-      std::vector<types::global_dof_index> first_node;        // [rank]
-      std::vector<std::vector<types::global_cell_index>>
-        ghost_cells; // [rank]: ascending, those of others that touch its nodes
+      const CurveCut cut;
     };
 
 

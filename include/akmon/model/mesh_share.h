@@ -47,8 +47,9 @@ namespace akmon
 
   /**
    * Give every rank its part of the mesh that the first rank has (collective). Ranks get
-   * consecutive stretches of the space-filling curve, of equal work instead of equal numbers of
-   * cells, and own the nodes that their cells touch first; so does any lower number of ranks.
+   * consecutive stretches of the space-filling curve, of equal work with their ghosts
+   * (cut_evenly()), and own the nodes that their cells touch first; so does any lower number of
+   * ranks.
    * @param mesh        used up; looked at on the first rank only
    * @param extra_work  that ranks share besides their cells' own
    */
