@@ -32,8 +32,8 @@ namespace akmon::test
                                                      CellIntegration::mean_dilatation};
 
 
-  // Critical steps of free meshes of cubes (references.md, section 7): nu = .3, dt c_d/h to four
-  // digits, full integration.
+  // Critical steps of free meshes of cubes (doc/verification.md, section 7): nu = .3, dt c_d/h to
+  // four digits, full integration.
   struct CubeMesh
   {
     std::array<unsigned int, 3> cells;

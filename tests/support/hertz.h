@@ -7,8 +7,8 @@
 #include "support/report.h"
 #include "support/run_directory.h"
 
-// An elastic sphere, R = E = rho = 1, nu = 0.3, on a rigid plane: Hertz (references.md section 5).
-// Cases hertz_impact and hertz_press, which mesh a quarter.
+// An elastic sphere, R = E = rho = 1, nu = 0.3, on a rigid plane: Hertz (doc/verification.md,
+// section 6b). Cases hertz_impact and hertz_press, which mesh a quarter.
 
 namespace akmon::test
 {

@@ -16,7 +16,7 @@
 //     d sigma/dt = L sigma + sigma L^T - tr(L) sigma + C : sym(L),   sigma(0) = 0,
 //
 // with M = lambda + 2 mu and K = lambda + 2/3 mu, for a straining whose path each test names. The
-// numbers for N steps are those of the reference solutions (references.md, section 8), independent
+// numbers for N steps are those of the reference solutions, independent
 // computations of the ARC-end update given to six decimals.
 
 namespace arc_end_test

@@ -12,8 +12,8 @@
 
 #include "support/critical_step.h"
 
-// The critical step 2/omega_max of assembled bodies against references.md, section 7, and against
-// Lanczos' iteration with the internal forces; and how it follows a cell that deforms.
+// The critical step 2/omega_max of assembled bodies against known ones of meshes of cubes and
+// against Lanczos' iteration with the internal forces; and how it follows a cell that deforms.
 
 namespace critical_step_bodies_test
 {

@@ -10,7 +10,7 @@
 
 #include "support/critical_step.h"
 
-// The critical step 2/omega_max of a cell against references.md, section 7, and against an
+// The critical step 2/omega_max of a cell against its closed form and against an
 // independent stiffness matrix (support/critical_step.h).
 
 namespace critical_step_test
@@ -18,7 +18,7 @@ namespace critical_step_test
   using namespace akmon;
   using namespace akmon::test;
 
-  // references.md, section 7: n = (1/a, 1/b, 1/c), omega_max^2 =
+  // A free brick: n = (1/a, 1/b, 1/c), omega_max^2 =
   // max( lambda_max[(4/rho)(lambda n n^T + 2G diag(n_i^2))], (4G/rho)(n_i^2 + n_j^2) ), rho = 1.
   double
   closed_form(const std::array<double, 3> &edges, const Elasticity &elasticity)

@@ -97,7 +97,7 @@ namespace j2_plastic_arc_end_test
 
   TEST(J2PlasticArcEnd, UniaxialCompressionReachesTheNumbersForOneTenAndAHundredSteps)
   {
-    // Stretch 0.9: reference solutions (references.md, section 8), an independent computation.
+    // Stretch 0.9: reference solutions, an independent computation.
     EXPECT_NEAR(arc_end_uniaxial_strain(0.9, 1).stress[0], -14.944955, 0.5e-6);
     EXPECT_NEAR(arc_end_uniaxial_strain(0.9, 10).stress[0], -15.254046, 0.5e-6);
     EXPECT_NEAR(arc_end_uniaxial_strain(0.9, 100).stress[0], -15.283552, 0.5e-6);

@@ -18,7 +18,7 @@ namespace j2_plastic_test
   using namespace akmon::test::j2_points;
 
   // ---------------------------------------------------------------------------------------------
-  // Closed forms, copper at 5 % (numbers also in references.md, section 8)
+  // Closed forms, copper at 5 %
   // ---------------------------------------------------------------------------------------------
 
   TEST(J2Plastic, UniaxialStressFollowsTheTangentModulus)

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 #include <random>
 #include <vector>
+
+#include "support/report.h"
 
 // Closest point of a bilinear segment (4): plane segments by hand, warped ones against points made
 // by going along a known normal, and against a search over a fine grid.
@@ -14,6 +15,7 @@
 namespace projection_test
 {
   using namespace akmon;
+  using test::report;
   using Vector  = dealii::Tensor<1, 3>;
   using Feature = Projection::Feature;
 
@@ -22,13 +24,6 @@ namespace projection_test
   // Corner k at (xi, eta) = (-1,-1), (1,-1), (1,1), (-1,1).
   const Segment square = {
     {Vector({0., 0., 0.}), Vector({2., 0., 0.}), Vector({2., 2., 0.}), Vector({0., 2., 0.})}};
-
-
-  void
-  report(const std::string &name, const double value)
-  {
-    std::cout << "  " << name << " " << value << std::endl;
-  }
 
 
   Vector

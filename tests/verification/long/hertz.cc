@@ -5,8 +5,8 @@
 #include <cmath>
 
 // Hertz press and impact on three meshes of a quarter of a sphere, graded towards the contact:
-// force, contact radius, largest pressure and contact time of references.md section 5 within 2 % on
-// the finest, converging.
+// force, contact radius, largest pressure and contact time of doc/verification.md, section 6b,
+// within 2 % on the finest, converging.
 
 namespace hertz
 {

@@ -4,12 +4,13 @@
 #include <cmath>
 #include <iostream>
 
+#include "support/report.h"
 #include "support/run_case.h"
 
-// Elastic spheres, R = E = rho = 1, nu = 0.3, v = 0.01 (references.md section 5): two that collide
-// centrally and one on a rigid plane against the Hertz impact with the dynamic correction of a fine
-// axisymmetric solution; oblique ones against the rigid limits and the partial slip of Maw, Barber
-// and Fawcett (1976).
+// Elastic spheres, R = E = rho = 1, nu = 0.3, v = 0.01 (doc/verification.md, section 6b): two that
+// collide centrally and one on a rigid plane against the Hertz impact with the dynamic correction
+// of a fine axisymmetric solution; oblique ones against the rigid limits and the partial slip of
+// Maw, Barber and Fawcett (1976).
 
 namespace two_spheres
 {
@@ -18,13 +19,6 @@ namespace two_spheres
   constexpr double v = 0.01, hertz_force = .0125244, hertz_time = 12.3047;
   constexpr double force = 1.073 * hertz_force, time_of_contact = 0.953 * hertz_time,
                    restitution = .9984;
-
-
-  void
-  report(const std::string &name, const double value)
-  {
-    std::cout << "  " << name << " " << value << std::endl;
-  }
 
 
   struct SphereState

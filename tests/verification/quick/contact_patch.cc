@@ -5,8 +5,8 @@
 
 // Contact patch test: two blocks of non-matching meshes, a uniform pressure applied slowly and with
 // damping. With both sides slave and master the stress is uniform, on a flat interface and on an
-// inclined one that friction keeps from sliding. A single pass cannot do that (references.md
-// section 6); it is measured, and exact on nested meshes.
+// inclined one that friction keeps from sliding. A single pass cannot do that (doc/verification.md,
+// section 6b); it is measured, and exact on nested meshes.
 
 namespace contact_patch
 {

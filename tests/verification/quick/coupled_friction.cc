@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
+#include "support/report.h"
 #include "support/run_case.h"
 
 // Friction with the coupled solver: on a rigid plane it must move a block as the decoupled solution
 // does (no pair shares a node with another one); an oblique landing; an elastic layer that hits a
-// plane obliquely, where one-dimensional waves are exact (references.md section 5); and bars of
+// plane obliquely, where one-dimensional waves are exact; and bars of
 // non-matching meshes that rub each other.
 
 namespace coupled_friction
@@ -16,13 +16,6 @@ namespace coupled_friction
   using namespace akmon::test;
 
   const std::string decoupled = "Contact solver/Type=decoupled";
-
-
-  void
-  report(const std::string &name, const double value)
-  {
-    std::cout << "  " << name << " " << value << std::endl;
-  }
 
 
   double

@@ -3,7 +3,7 @@
 #include "support/hertz.h"
 
 // Hertz press and impact on a coarse mesh, at three cells under the contact radius. Bounds are what
-// this mesh allows; verification/long/hertz.cc converges to references.md section 5.
+// this mesh allows; verification/long/hertz.cc converges to doc/verification.md, section 6b.
 
 namespace hertz_coarse
 {

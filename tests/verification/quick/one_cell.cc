@@ -11,7 +11,7 @@
 #include "support/run_case.h"
 
 // One cell driven through the program's own force pass: closed forms of the Truesdell rate
-// (references.md, section 8: E = 1000, nu = 0.25, lambda = mu = 400, M = 1200), free flight and
+// (E = 1000, nu = 0.25: lambda = mu = 400, lambda + 2 mu = 1200), free flight and
 // fall of the shipped case one_cell.
 
 namespace one_cell

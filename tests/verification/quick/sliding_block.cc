@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iostream>
 
+#include "support/report.h"
 #include "support/run_case.h"
 
-// Blocks with friction, references.md section 4. Flat: stopping time v0/(mu g), distance v0^2/(2 mu
-// g). Slope: sticks iff tan(angle) <= mu, else a = g (sin - mu cos). While every node in contact
-// slides forward, v_x + mu v_z = v0 + (g_x + mu g_z) t for the centre of mass, bouncing or not.
+// Blocks with friction, doc/verification.md, section 6. Flat: stopping time v0/(mu g), distance
+// v0^2/(2 mu g). Slope: sticks iff tan(angle) <= mu, else a = g (sin - mu cos). While every node in
+// contact slides forward, v_x + mu v_z = v0 + (g_x + mu g_z) t for the centre of mass, bouncing or
+// not.
 
 namespace sliding_block
 {
@@ -20,13 +21,6 @@ namespace sliding_block
   const std::string velocity = "Bodies/block/Velocity=";
   const std::string damping  = "Body force/Damping=";
   const std::string stick    = "Obstacles/ground/Stick=";
-
-
-  void
-  report(const std::string &name, const double value)
-  {
-    std::cout << "  " << name << " " << value << std::endl;
-  }
 
 
   std::string
