@@ -10,6 +10,36 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    // The point of the cone of some unit vectors, sum a_i n_i with a_i >= 0, that is closest to a
+    // vector v: coordinate by coordinate.
+    template <typename Vectors>
+    Tensor<1, 3>
+    closest_in_cone(const Tensor<1, 3> &v, const Vectors &n)
+    {
+      constexpr unsigned int most_sweeps = 50;
+      constexpr double rounding          = 1e-14;
+
+      boost::container::small_vector<double, 8> a(n.size(), 0.);
+      Tensor<1, 3> sum;
+      double change = 1.;
+      for (unsigned int sweep = 0; sweep < most_sweeps && change > rounding; ++sweep)
+        {
+          change = 0.;
+          for (std::size_t i = 0; i < n.size(); ++i)
+            {
+              const double next = std::max(0., a[i] + n[i] * (v - sum));
+              sum += (next - a[i]) * n[i];
+              change = std::max(change, std::abs(next - a[i]));
+              a[i]   = next;
+            }
+        }
+      return sum;
+    }
+  } // namespace
+
+
   unsigned int
   SurfaceSearch::faces_sharing(const unsigned int node_a, const unsigned int node_b) const
   {
@@ -51,22 +81,16 @@ namespace akmon
   }
 
 
-  // Normal of the closest feature: of the face itself, or the mean of the faces that share the edge
-  // or vertex. A feature is on the rim where an edge has one face only.
-  Tensor<1, 3>
-  SurfaceSearch::feature_normal(const ContactNodes::Field &x,
-                                const Partner &partner,
-                                bool &on_rim) const
+  // The faces that share the closest edge or vertex. It is on the rim where an edge has one face
+  // only.
+  SurfaceSearch::Feature
+  SurfaceSearch::feature_of(const ContactNodes::Field &x, const Partner &partner) const
   {
     const auto &face       = masters[partner.face].nodes;
     const auto &projection = partner.projection;
     const unsigned int a   = face[projection.where];
     const unsigned int b   = face[(projection.where + 1) % 4];
-    on_rim                 = false;
-    if (projection.feature == Projection::Feature::face)
-      return face_normal(x, partner);
-
-    Tensor<1, 3> sum;
+    Feature feature;
     for (const unsigned int corner : corners_at[a])
       {
         const auto &neighbour   = masters[corner / 4].nodes;
@@ -75,78 +99,106 @@ namespace akmon
           {
             if (next != b && last != b)
               continue;
-            on_rim = faces_sharing(a, b) == 1;
+            feature.on_rim = faces_sharing(a, b) == 1;
           }
         else
-          on_rim = on_rim || faces_sharing(a, next) == 1 || faces_sharing(a, last) == 1;
-        const auto normal = area_vector(segment(x, neighbour));
-        sum += normal / normal.norm();
+          feature.on_rim = feature.on_rim || faces_sharing(a, next) == 1 ||
+                           faces_sharing(a, last) == 1;
+        feature.faces.push_back(corner / 4);
+        feature.normals.push_back(unit_normal(segment(x, neighbour)));
+        feature.mean += feature.normals.back();
       }
-    return sum / sum.norm();
+    feature.mean /= feature.mean.norm();
+    return feature;
   }
 
 
-  // Whether a slave that is behind the mean normal of an edge or vertex is outside nevertheless: in
-  // front of one of the faces that share it, where none of them rises from another. That face does
-  // not look at the slave, and this one is on another side of the body.
+  // Whether the surface turns sharply at a feature, and outward everywhere.
   bool
-  SurfaceSearch::is_beside(const ContactNodes::Field &x, const Partner &partner) const
+  SurfaceSearch::is_ridge(const ContactNodes::Field &x,
+                          const Partner &partner,
+                          const Feature &feature) const
   {
-    constexpr double nearly_flat = 0.1, clearly = 0.2; // sines
-    constexpr double at_border = 1. - 1e-12;           // in xi, eta
+    constexpr double smooth = 0.85, nearly_flat = 0.1; // cosine, sine
 
-    const auto &projection = partner.projection;
-    if (partner.gap >= 0. || projection.feature == Projection::Feature::face ||
-        std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
+    if (std::all_of(feature.normals.begin(), feature.normals.end(), [&](const auto &normal) {
+          return normal * feature.mean > smooth;
+        }))
       return false;
-    const auto &face      = masters[partner.face].nodes;
-    const unsigned int a  = face[projection.where];
-    const unsigned int b  = face[(projection.where + 1) % 4];
-    const double at_least = clearly * projection.offset.norm();
-    std::vector<Segment> around;
-    for (const unsigned int corner : corners_at[a])
-      {
-        const auto &nodes = masters[corner / 4].nodes;
-        if (projection.feature == Projection::Feature::vertex ||
-            std::find(nodes.begin(), nodes.end(), b) != nodes.end())
-          around.push_back(segment(x, masters[corner / 4]));
-      }
-    bool in_front = false;
-    for (const auto &one : around)
-      {
-        const auto normal = unit_normal(one);
-        in_front          = in_front || normal * projection.offset > at_least;
-        for (const auto &other : around)
-          {
-            const auto way = middle_of(other) - x[a];
-            if (normal * way > nearly_flat * way.norm())
-              return false;
-          }
-      }
-    return in_front;
+    const auto foot = x[masters[partner.face].nodes[partner.projection.where]];
+    for (const auto &normal : feature.normals)
+      for (const unsigned int face : feature.faces)
+        {
+          const auto way = middle_of(segment(x, masters[face])) - foot;
+          if (normal * way > nearly_flat * way.norm())
+            return false;
+        }
+    return true;
+  }
+
+
+  // On a ridge the normal of what touches it counts, as far as the surface takes it there: the one
+  // against the slave's own. The other side of a sharp edge says nothing where bodies lie flat on
+  // each other.
+  Tensor<1, 3>
+  SurfaceSearch::ridge_normal(const unsigned int slave, const Feature &feature) const
+  {
+    const auto against = -outwards[slave] / outwards[slave].norm();
+    const auto closest = closest_in_cone(against, feature.normals);
+    const double norm  = closest.norm();
+    return norm > 0. ? closest / norm : feature.mean;
   }
 
 
   // Normal and gap of a partner whose closest point is known; false where it is none: too far
-  // outside or inside, or beyond the rim.
+  // outside or inside, or beyond the rim. A slave next to a ridge that has a face which does not
+  // look at it is at the rim of what does: beyond it, or behind, it is beside the body.
   bool
   SurfaceSearch::complete(const ContactNodes::Field &x,
                           const unsigned int slave,
                           Partner &partner) const
   {
+    constexpr double at_border = 1. - 1e-12; // in xi, eta
+    // Sine over cosine of the angle between the ways to the closest point of a concave corner of
+    // three walls and along their mean normal.
+    constexpr double deepest_aside = 1.5;
+
     const bool to_points = contact.gap_model == SurfaceContact::GapModel::point_to_point;
     if (to_points)
       snap_to_closest_node(x, x[slaves[slave].number], partner);
-    bool on_rim;
-    partner.normal = feature_normal(x, partner, on_rim);
-    partner.gap    = partner.normal * partner.projection.offset;
-    if (partner.gap > search_radius || partner.gap < -deepest_part * masters[partner.face].depth ||
-        is_beside(x, partner))
+    const auto &projection = partner.projection;
+    const auto within      = [&]() {
+      return partner.gap <= search_radius &&
+             partner.gap >= -deepest_part * masters[partner.face].depth;
+    };
+    if (projection.feature == Projection::Feature::face)
+      {
+        partner.normal = face_normal(x, partner);
+        partner.gap    = partner.normal * projection.offset;
+        return within();
+      }
+
+    const Feature feature = feature_of(x, partner);
+    const bool on_ridge   = !feature.on_rim && !to_points && is_ridge(x, partner, feature);
+    partner.normal        = on_ridge ? ridge_normal(slave, feature) : feature.mean;
+    partner.gap           = partner.normal * projection.offset;
+    if (!within())
       return false;
-    if (!on_rim)
-      return true;
-    const double overhang  = (partner.projection.offset - partner.gap * partner.normal).norm();
+    const double aside     = (projection.offset - partner.gap * partner.normal).norm();
     const double face_size = std::sqrt(area_vector(segment(x, masters[partner.face])).norm());
-    return overhang <= (to_points ? 0.5 : contact.rim_tolerance) * face_size;
+    const double tolerance = (to_points ? 0.5 : contact.rim_tolerance) * face_size;
+    if (feature.on_rim)
+      return aside <= tolerance;
+    if (to_points || std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
+      return true;
+    const bool all_look = std::all_of(feature.faces.begin(),
+                                      feature.faces.end(),
+                                      [&](const unsigned int face) {
+                                        return looks_at(slave,
+                                                        area_vector(segment(x, masters[face])));
+                                      });
+    if (on_ridge && !all_look)
+      return aside <= tolerance && partner.gap >= -tolerance;
+    return partner.gap >= 0. || aside <= tolerance - deepest_aside * partner.gap;
   }
 } // namespace akmon

@@ -11,6 +11,8 @@
 #include <akmon/contact/search/projection.h>
 #include <akmon/contact/search/rank_regions.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -215,6 +217,15 @@ namespace akmon
       double gap;                  ///< along the normal; length
     };
 
+    // An edge or vertex of the surface.
+    struct Feature
+    {
+      boost::container::small_vector<unsigned int, 8> faces;           ///< that share it
+      boost::container::small_vector<dealii::Tensor<1, 3>, 8> normals; ///< of these
+      dealii::Tensor<1, 3> mean;                                       ///< of the normals
+      bool on_rim = false;                                             ///< of the surface
+    };
+
     void
     prefetch_face(const unsigned int face) const
     {
@@ -309,8 +320,12 @@ namespace akmon
                        Partner &partner) const;
     dealii::Tensor<1, 3>
     face_normal(const ContactNodes::Field &x, const Partner &partner) const;
+    Feature
+    feature_of(const ContactNodes::Field &x, const Partner &partner) const;
     bool
-    is_beside(const ContactNodes::Field &x, const Partner &partner) const;
+    is_ridge(const ContactNodes::Field &x, const Partner &partner, const Feature &feature) const;
+    dealii::Tensor<1, 3>
+    ridge_normal(const unsigned int slave, const Feature &feature) const;
     bool
     complete(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
     void
@@ -337,8 +352,6 @@ namespace akmon
     snap_to_closest_node(const ContactNodes::Field &x,
                          const dealii::Tensor<1, 3> &slave,
                          Partner &partner) const;
-    dealii::Tensor<1, 3>
-    feature_normal(const ContactNodes::Field &x, const Partner &partner, bool &on_rim) const;
     unsigned int
     faces_sharing(const unsigned int node_a, const unsigned int node_b) const;
 
