@@ -1,3 +1,4 @@
+#include <akmon/contact/search/face_geometry.h>
 #include <akmon/contact/search/surface_search.h>
 
 #include <algorithm>
@@ -125,15 +126,17 @@ namespace akmon
           continue;
         Partner partner;
         partner.face         = candidates[i].face;
-        const auto area      = area_vector(segment(x, masters[partner.face]));
+        partner.normal       = unit_normal(segment(x, masters[partner.face]));
         const auto is_turned = [&](const ContactPair &other) {
-          return area * other.normal < turned * area.norm();
+          return partner.normal * other.normal < turned;
         };
         if (!std::all_of(pairs.begin() + first, pairs.end(), is_turned))
           continue;
-        partner.projection = project(point, segment(x, masters[partner.face]));
-        if (partner.projection.feature == Projection::Feature::face &&
-            partner.projection.offset.norm() <= reach && complete(x, slave, partner) &&
+        const auto corners = segment(x, masters[partner.face]);
+        partner.projection = project(point, corners);
+        if (partner.projection.offset.norm() <= reach &&
+            lies_on(x, slave, corners, partner.projection) && complete(x, slave, partner) &&
+            std::all_of(pairs.begin() + first, pairs.end(), is_turned) &&
             partner.gap >= in_front * slaves[slave].size)
           {
             add_pair(x, slave, partner, pairs);

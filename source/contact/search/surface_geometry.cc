@@ -148,6 +148,52 @@ namespace akmon
   }
 
 
+  // Whether a face is seen from behind, through the body that both are of.
+  bool
+  SurfaceSearch::is_through_body(const unsigned int slave,
+                                 const unsigned int face,
+                                 const Segment &corners,
+                                 const Projection &projection) const
+  {
+    return fetched[face].body == discretization.body_of_node[slaves[slave].node] &&
+           unit_normal(corners) * projection.offset < -deepest_inside(slave, face);
+  }
+
+
+  // False where bodies that are flush touch along parallel edges only: the slave is at the border
+  // of a face, all of its own faces that lie flat against that one are next to it.
+  bool
+  SurfaceSearch::lies_on(const ContactNodes::Field &x,
+                         const unsigned int slave,
+                         const Segment &corners,
+                         const Projection &projection) const
+  {
+    constexpr double touching = 1e-3, flat = 0.9, next_to = 1e-3; // of the cell size; cosine, sine
+
+    if (projection.feature == Projection::Feature::face ||
+        projection.offset.norm() > touching * slaves[slave].size)
+      return true;
+    const auto normal    = unit_normal(corners);
+    const auto goes_over = [&](const Tensor<1, 3> &way, const unsigned int k) {
+      const auto inward = cross_product_3d(normal, corners[(k + 1) % 4] - corners[k]);
+      return inward * way > next_to * inward.norm() * way.norm();
+    };
+    bool any = false;
+    for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
+      {
+        const auto own = segment(x, nodes_of_slave_faces[i]);
+        if (unit_normal(own) * normal > -flat)
+          continue;
+        any            = true;
+        const auto way = middle_of(own) - x[slaves[slave].number];
+        if (goes_over(way, projection.where) && (projection.feature == Projection::Feature::edge ||
+                                                 goes_over(way, (projection.where + 3) % 4)))
+          return true;
+      }
+    return !any;
+  }
+
+
   // Whether a face rises in front of the one beside it with a normal at a foot.
   bool
   SurfaceSearch::rises_from(const Segment &corners,

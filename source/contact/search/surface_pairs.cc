@@ -57,7 +57,9 @@ namespace akmon
         if (!looks_at(slave, area_vector(corners)))
           continue;
         const Projection projection = f == memory.face ? of_last : project(point, corners);
-        if (const double distance = projection.offset.norm(); distance < best)
+        if (const double distance = projection.offset.norm();
+            distance < best && lies_on(x, slave, corners, projection) &&
+            !is_through_body(slave, f, corners, projection))
           {
             best               = distance;
             partner.face       = f;

@@ -1,4 +1,5 @@
 #include <akmon/contact/search/face_geometry.h>
+#include <akmon/contact/search/normal_cone.h>
 #include <akmon/contact/search/surface_search.h>
 
 #include <algorithm>
@@ -9,36 +10,6 @@
 namespace akmon
 {
   using namespace dealii;
-
-  namespace
-  {
-    // The point of the cone of some unit vectors, sum a_i n_i with a_i >= 0, that is closest to a
-    // vector v: coordinate by coordinate.
-    template <typename Vectors>
-    Tensor<1, 3>
-    closest_in_cone(const Tensor<1, 3> &v, const Vectors &n)
-    {
-      constexpr unsigned int most_sweeps = 50;
-      constexpr double rounding          = 1e-14;
-
-      boost::container::small_vector<double, 8> a(n.size(), 0.);
-      Tensor<1, 3> sum;
-      double change = 1.;
-      for (unsigned int sweep = 0; sweep < most_sweeps && change > rounding; ++sweep)
-        {
-          change = 0.;
-          for (std::size_t i = 0; i < n.size(); ++i)
-            {
-              const double next = std::max(0., a[i] + n[i] * (v - sum));
-              sum += (next - a[i]) * n[i];
-              change = std::max(change, std::abs(next - a[i]));
-              a[i]   = next;
-            }
-        }
-      return sum;
-    }
-  } // namespace
-
 
   unsigned int
   SurfaceSearch::faces_sharing(const unsigned int node_a, const unsigned int node_b) const
@@ -119,11 +90,9 @@ namespace akmon
                           const Partner &partner,
                           const Feature &feature) const
   {
-    constexpr double smooth = 0.85, nearly_flat = 0.1; // cosine, sine
+    constexpr double nearly_flat = 0.1; // sine
 
-    if (std::all_of(feature.normals.begin(), feature.normals.end(), [&](const auto &normal) {
-          return normal * feature.mean > smooth;
-        }))
+    if (!feature.normals.turn_sharply(feature.mean))
       return false;
     const auto foot = x[masters[partner.face].nodes[partner.projection.where]];
     for (const auto &normal : feature.normals)
@@ -144,9 +113,33 @@ namespace akmon
   SurfaceSearch::ridge_normal(const unsigned int slave, const Feature &feature) const
   {
     const auto against = -outwards[slave] / outwards[slave].norm();
-    const auto closest = closest_in_cone(against, feature.normals);
+    const auto closest = feature.normals.sides().closest_to(against);
     const double norm  = closest.norm();
     return norm > 0. ? closest / norm : feature.mean;
+  }
+
+
+  // Whether a feature has a face that does not look at a slave.
+  bool
+  SurfaceSearch::turns_away(const ContactNodes::Field &x,
+                            const unsigned int slave,
+                            const Feature &feature) const
+  {
+    return !std::all_of(feature.faces.begin(), feature.faces.end(), [&](const unsigned int face) {
+      return looks_at(slave, area_vector(segment(x, masters[face])));
+    });
+  }
+
+
+  // What is further inside a face has not come through it: it belongs to another side of the body.
+  // A node of the same body is in the material behind its faces, however thin that is.
+  double
+  SurfaceSearch::deepest_inside(const unsigned int slave, const unsigned int face) const
+  {
+    constexpr double of_same_body = 0.02;
+
+    const bool is_same = fetched[face].body == discretization.body_of_node[slaves[slave].node];
+    return (is_same ? of_same_body : deepest_part) * masters[face].depth;
   }
 
 
@@ -159,6 +152,8 @@ namespace akmon
                           Partner &partner) const
   {
     constexpr double at_border = 1. - 1e-12; // in xi, eta
+    // Of the tolerance at rims: beyond them the planes of faces side by side differ.
+    constexpr double of_ridges = 0.1;
     // Sine over cosine of the angle between the ways to the closest point of a concave corner of
     // three walls and along their mean normal.
     constexpr double deepest_aside = 1.5;
@@ -169,7 +164,7 @@ namespace akmon
     const auto &projection = partner.projection;
     const auto within      = [&]() {
       return partner.gap <= search_radius &&
-             partner.gap >= -deepest_part * masters[partner.face].depth;
+             (partner.gap >= 0. || partner.gap >= -deepest_inside(slave, partner.face));
     };
     if (projection.feature == Projection::Feature::face)
       {
@@ -191,14 +186,8 @@ namespace akmon
       return aside <= tolerance;
     if (to_points || std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
       return true;
-    const bool all_look = std::all_of(feature.faces.begin(),
-                                      feature.faces.end(),
-                                      [&](const unsigned int face) {
-                                        return looks_at(slave,
-                                                        area_vector(segment(x, masters[face])));
-                                      });
-    if (on_ridge && !all_look)
-      return aside <= tolerance && partner.gap >= -tolerance;
+    if (on_ridge && turns_away(x, slave, feature))
+      return std::max(aside, -partner.gap) <= of_ridges * tolerance;
     return partner.gap >= 0. || aside <= tolerance - deepest_aside * partner.gap;
   }
 } // namespace akmon

@@ -8,10 +8,9 @@
 #include <akmon/contact/search/box_grid.h>
 #include <akmon/contact/search/face_box.h>
 #include <akmon/contact/search/master_face.h>
+#include <akmon/contact/search/normal_cone.h>
 #include <akmon/contact/search/projection.h>
 #include <akmon/contact/search/rank_regions.h>
-
-#include <boost/container/small_vector.hpp>
 
 #include <algorithm>
 #include <array>
@@ -220,10 +219,10 @@ namespace akmon
     // An edge or vertex of the surface.
     struct Feature
     {
-      boost::container::small_vector<unsigned int, 8> faces;           ///< that share it
-      boost::container::small_vector<dealii::Tensor<1, 3>, 8> normals; ///< of these
-      dealii::Tensor<1, 3> mean;                                       ///< of the normals
-      bool on_rim = false;                                             ///< of the surface
+      boost::container::small_vector<unsigned int, 8> faces; ///< that share it
+      NormalCone normals;                                    ///< of these
+      dealii::Tensor<1, 3> mean;                             ///< of the normals
+      bool on_rim = false;                                   ///< of the surface
     };
 
     void
@@ -309,6 +308,11 @@ namespace akmon
     looks_at(const unsigned int slave, const dealii::Tensor<1, 3> &area) const;
     bool
     opposes(const ContactNodes::Field &x, const unsigned int face, const unsigned int slave) const;
+    bool
+    lies_on(const ContactNodes::Field &x,
+            const unsigned int slave,
+            const Segment &corners,
+            const Projection &projection) const;
     static bool
     rises_from(const Segment &corners,
                const dealii::Tensor<1, 3> &foot,
@@ -324,6 +328,17 @@ namespace akmon
     feature_of(const ContactNodes::Field &x, const Partner &partner) const;
     bool
     is_ridge(const ContactNodes::Field &x, const Partner &partner, const Feature &feature) const;
+    double
+    deepest_inside(const unsigned int slave, const unsigned int face) const;
+    bool
+    is_through_body(const unsigned int slave,
+                    const unsigned int face,
+                    const Segment &corners,
+                    const Projection &projection) const;
+    bool
+    turns_away(const ContactNodes::Field &x,
+               const unsigned int slave,
+               const Feature &feature) const;
     dealii::Tensor<1, 3>
     ridge_normal(const unsigned int slave, const Feature &feature) const;
     bool
