@@ -39,7 +39,7 @@ namespace akmon
           const bool levers    = solver.type != ContactSolver::Type::decoupled;
           const bool symmetric = levers && contact.symmetric;
           searches.emplace_back(discretization, contact, i, searches.size(), false, levers);
-          if (symmetric && contact.slaves != contact.masters)
+          if (symmetric && !is_one_surface(discretization, contact))
             searches.emplace_back(discretization, contact, i, searches.size(), true, levers);
         }
       return searches;

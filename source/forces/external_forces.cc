@@ -85,12 +85,8 @@ namespace akmon
     , body_force(body_force)
   {
     for (const auto &load : surface_loads)
-      {
-        std::set<types::boundary_id> ids;
-        for (const auto &surface : load.surfaces)
-          ids.merge(discretization.boundary_ids("Loads/" + load.name, "Surfaces", surface));
-        loaded_faces.push_back(discretization.faces_on(ids));
-      }
+      loaded_faces.push_back(discretization.faces_on(
+        discretization.boundary_ids("Loads/" + load.name, "Surfaces", load.surfaces)));
     if (!surface_loads.empty() || !body_force.acceleration.identically_zero())
       current = discretization.make_vector();
   }

@@ -198,4 +198,16 @@ namespace akmon
       body_index(section, key, body); // throws
     return ids;
   }
+
+
+  std::set<types::boundary_id>
+  Discretization::boundary_ids(const std::string &section,
+                               const std::string &key,
+                               const std::vector<std::string> &parts) const
+  {
+    std::set<types::boundary_id> ids;
+    for (const auto &part : parts)
+      ids.merge(boundary_ids(section, key, part));
+    return ids;
+  }
 } // namespace akmon

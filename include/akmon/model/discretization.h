@@ -73,6 +73,12 @@ namespace akmon
     std::set<dealii::types::boundary_id>
     boundary_ids(const std::string &section, const std::string &key, const std::string &part) const;
 
+    /// The same of several parts.
+    std::set<dealii::types::boundary_id>
+    boundary_ids(const std::string &section,
+                 const std::string &key,
+                 const std::vector<std::string> &parts) const;
+
     /// Relevant faces (owned and ghost) on the given boundary ids, in global order.
     std::vector<BoundaryFace>
     faces_on(const std::set<dealii::types::boundary_id> &ids) const;

@@ -223,12 +223,10 @@ namespace akmon
              const std::string &key,
              const std::vector<std::string> &surfaces)
   {
-    std::set<types::boundary_id> ids;
-    for (const auto &surface : surfaces)
-      ids.merge(discretization.boundary_ids(section, key, surface));
     constexpr unsigned int width = 17; // id, nodes, corners
     std::vector<double> here;
-    for (const auto &face : discretization.faces_on(ids))
+    for (const auto &face :
+         discretization.faces_on(discretization.boundary_ids(section, key, surfaces)))
       if (face.owned)
         {
           here.push_back(face.id);

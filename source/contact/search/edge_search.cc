@@ -73,7 +73,7 @@ namespace akmon
                          const unsigned int interface)
     : discretization(discretization)
     , interface(interface)
-    , one_surface(contact.slaves == contact.masters)
+    , one_surface(is_one_surface(discretization, contact))
     , has_friction(contact.friction.static_coefficient > 0.)
     , rim_tolerance(contact.rim_tolerance)
   {

@@ -74,10 +74,8 @@ namespace akmon
     , interface(interface)
   {
     const auto &obstacle = body.parameters();
-    std::set<types::boundary_id> ids;
-    for (const auto &surface : obstacle.slaves)
-      ids.merge(discretization.boundary_ids("Obstacles/" + obstacle.name, "Surfaces", surface));
-    faces                = discretization.faces_on(ids);
+    faces                = discretization.faces_on(
+      discretization.boundary_ids("Obstacles/" + obstacle.name, "Surfaces", obstacle.slaves));
     const auto stiffness = penalty_stiffness_of_nodes(discretization, faces);
     for (const auto &[node, size] : node_sizes(discretization, faces))
       slaves.push_back({node, size, stiffness.at(node)});

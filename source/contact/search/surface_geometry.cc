@@ -160,8 +160,9 @@ namespace akmon
   }
 
 
-  // False where bodies that are flush touch along parallel edges only: the slave is at the border
-  // of a face, all of its own faces that lie flat against that one are next to it.
+  // False where bodies that are flush touch along parallel edges only: a slave at a sharp edge of
+  // its body is at the border of a face, and all of its own faces that lie flat against that one
+  // are next to it.
   bool
   SurfaceSearch::lies_on(const ContactNodes::Field &x,
                          const unsigned int slave,
@@ -178,11 +179,13 @@ namespace akmon
       const auto inward = cross_product_3d(normal, corners[(k + 1) % 4] - corners[k]);
       return inward * way > next_to * inward.norm() * way.norm();
     };
+    NormalCone own_normals;
     bool any = false;
     for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
       {
         const auto own = segment(x, nodes_of_slave_faces[i]);
-        if (unit_normal(own) * normal > -flat)
+        own_normals.push_back(unit_normal(own));
+        if (own_normals.back() * normal > -flat)
           continue;
         any            = true;
         const auto way = middle_of(own) - x[slaves[slave].number];
@@ -190,7 +193,7 @@ namespace akmon
                                                  goes_over(way, (projection.where + 3) % 4)))
           return true;
       }
-    return !any;
+    return !any || !own_normals.turn_sharply(outwards[slave] / outwards[slave].norm());
   }
 
 

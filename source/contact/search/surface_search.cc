@@ -13,16 +13,17 @@ namespace akmon
 
   namespace
   {
-    std::vector<BoundaryFace>
-    select_faces(const Discretization &discretization,
-                 const SurfaceContact &contact,
-                 const std::string &key,
-                 const std::vector<std::string> &surfaces)
+    std::set<types::boundary_id>
+    slave_ids(const Discretization &discretization, const SurfaceContact &contact)
     {
-      std::set<types::boundary_id> ids;
-      for (const auto &surface : surfaces)
-        ids.merge(discretization.boundary_ids("Contact/" + contact.name, key, surface));
-      return discretization.faces_on(ids);
+      return discretization.boundary_ids("Contact/" + contact.name, "Slave", contact.slaves);
+    }
+
+
+    std::set<types::boundary_id>
+    master_ids(const Discretization &discretization, const SurfaceContact &contact)
+    {
+      return discretization.boundary_ids("Contact/" + contact.name, "Master", contact.masters);
     }
 
 
@@ -50,6 +51,13 @@ namespace akmon
   } // namespace
 
 
+  bool
+  is_one_surface(const Discretization &discretization, const SurfaceContact &contact)
+  {
+    return slave_ids(discretization, contact) == master_ids(discretization, contact);
+  }
+
+
   SurfaceSearch::SurfaceSearch(const Discretization &discretization,
                                const SurfaceContact &contact,
                                const unsigned int interface,
@@ -63,8 +71,8 @@ namespace akmon
     , reversed(reversed)
     , coupled(coupled)
     , has_friction(contact.friction.static_coefficient > 0.)
-    , slave_faces(select_faces(discretization, contact, "Slave", contact.slaves))
-    , master_faces(select_faces(discretization, contact, "Master", contact.masters))
+    , slave_faces(discretization.faces_on(slave_ids(discretization, contact)))
+    , master_faces(discretization.faces_on(master_ids(discretization, contact)))
   {
     if (reversed)
       std::swap(slave_faces, master_faces);

@@ -105,6 +105,24 @@ end
   }
 
 
+  // A surface that meets itself is one, in whatever order its parts are named.
+  TEST(OneSurface, is_known_by_its_faces)
+  {
+    const std::string text = rubber_boxes +
+                             bodies("low, high",
+                                    box("low", "0, 0, 0.5", 2) + box("high", "0.1, 0, 1.5", 3));
+    const std::vector<std::string> overrides = {"Time/End=0.02",
+                                                "Obstacles/ground/Surfaces=low:z-"};
+    auto named                               = overrides;
+    named.push_back("Contact/touch/Slave=low:all, high");
+    named.push_back("Contact/touch/Master=high:all, low");
+    const auto once = run_text(text, overrides), twice = run_text(text, named);
+    EXPECT_GT(once.history["active_pairs"].back(), 0.);
+    EXPECT_EQ(once.history["active_pairs"], twice.history["active_pairs"]);
+    EXPECT_EQ(once.history["kinetic_energy"], twice.history["kinetic_energy"]);
+  }
+
+
   // Side by side and on each other, on like meshes: where eight meet a node has three partners, and
   // none in the box across an edge or corner.
   TEST(FlushBoxes, keep_apart_where_eight_meet)

@@ -19,6 +19,12 @@
 
 namespace akmon
 {
+  /// Whether slaves and masters of a contact are the same faces, in whatever order and by whatever
+  /// names: then one search finds the pairs of both sides.
+  bool
+  is_one_surface(const Discretization &discretization, const SurfaceContact &contact);
+
+
   /**
    * Finds the partner of every slave node of one contact. In two stages: candidates (bounding
    * boxes, across ranks, valid while nothing has moved further than half the search radius) and
