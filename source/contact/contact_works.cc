@@ -17,7 +17,7 @@ namespace akmon
     if (bonds->exist())
       for (const auto &force : forces)
         of_contact[force.node] += force.normal + force.tangential;
-    for (const auto &force : bonds->finish_step(state, effective_mass_factor, of_contact))
+    for (const auto &force : bonds->finish_step(effective_mass_factor, of_contact))
       {
         const auto increment = force.sum() /
                                (discretization.mass[force.node] * effective_mass_factor);

@@ -9,42 +9,6 @@ namespace akmon
 {
   using namespace dealii;
 
-  // From the master to the slave.
-  void
-  Bonds::update_normals(const Values &positions)
-  {
-    for (const unsigned int i : unbroken)
-      {
-        auto &point = points[i];
-        Tensor<1, 3> outward;
-        for (const auto &face : point.faces)
-          outward += area_vector(
-            {{positions[face[0]], positions[face[1]], positions[face[2]], positions[face[3]]}});
-        point.normal = -outward / outward.norm();
-      }
-  }
-
-
-  // Points that failed at the last level have moved apart since: they hold where they are now,
-  // pressed ones along their normal where they were.
-  void
-  Bonds::follow_slip(const Values &positions)
-  {
-    for (const unsigned int i : unbroken)
-      {
-        auto &point = points[i];
-        if (point.holds == Holds::all)
-          continue;
-        Tensor<1, 3> slip = relative(point, positions) - point.offset;
-        if (point.holds == Holds::normal)
-          slip -= (slip * point.normal) * point.normal;
-        point.offset += slip;
-        point.given = Tensor<1, 3>();
-        point.holds = Holds::all;
-      }
-  }
-
-
   // Forces that hold points, from where the nodes would be without them.
   Eigen::VectorXd
   Bonds::hold_points(const System &system, const Values &reached) const
@@ -135,11 +99,14 @@ namespace akmon
       return;
     mass_factor = effective_mass_factor;
     x           = gather([&](const Own &node) { return at_node(state.x, node.local_node); });
+    before      = gather([&](const Own &node) { return at_node(state.dx, node.local_node); });
     free        = gather([&](const Own &node) { return dx_free[node.number]; });
     for (unsigned int i = 0; i < nodes.size(); ++i)
       free[i] += x[i];
+    turn_offsets(x, before);
     update_normals(x);
     follow_slip(x);
+    set_levers(x);
 
     active            = &system_now();
     Values reached    = free;
@@ -208,21 +175,18 @@ namespace akmon
 
 
   const std::vector<Bonds::NodalForce> &
-  Bonds::finish_step(const NodalState &state,
-                     const double effective_mass_factor,
+  Bonds::finish_step(const double effective_mass_factor,
                      const std::map<unsigned int, Tensor<1, 3>> &contact_force)
   {
     forces.clear();
     if (!exist())
       return forces;
-    mass_factor         = effective_mass_factor;
-    const Values loads  = gather([&](const Own &node) {
+    mass_factor        = effective_mass_factor;
+    const Values loads = gather([&](const Own &node) {
       const auto found = contact_force.find(node.local_node);
       return found == contact_force.end() ? Tensor<1, 3>() : found->second;
     });
-    const Values before = gather(
-      [&](const Own &node) { return at_node(state.dx, node.local_node); });
-    Values reached = free;
+    Values reached     = free;
     for (unsigned int i = 0; i < nodes.size(); ++i)
       reached[i] += W[i] * loads[i] / mass_factor;
     for (const unsigned int i : unbroken)
@@ -260,9 +224,13 @@ namespace akmon
         const unsigned int interface = points[*begin].interface;
         of_nodes.assign(nodes.size(), NodalForce{});
         for (; begin != unbroken.end() && points[*begin].interface == interface; ++begin)
-          for (const auto &[node, weight] : points[*begin].row)
-            (points[*begin].softening ? of_nodes[node].failing :
-                                        of_nodes[node].holding) += weight * points[*begin].force;
+          {
+            const auto &point = points[*begin];
+            visit_parts(point, point.force, [&](const Entry &entry, const Tensor<1, 3> &part) {
+              auto &of_node = of_nodes[entry.first];
+              (point.softening ? of_node.failing : of_node.holding) += part;
+            });
+          }
         for (const auto &node : own)
           if (uses[node.node] > 0)
             {
@@ -285,9 +253,10 @@ namespace akmon
           const auto normal = (point.force * point.normal) * point.normal;
           load.normal += normal;
           load.tangential += point.force - normal;
-          for (const auto &[node, weight] : point.row)
-            if (weight > 0.) // of the slave side
-              load.moment += cross_product_3d(weight * x[node], point.force);
+          visit_parts(point, point.force, [&](const Entry &entry, const Tensor<1, 3> &part) {
+            if (entry.second > 0.) // of the slave side
+              load.moment += cross_product_3d(x[entry.first], part);
+          });
         }
     return load;
   }

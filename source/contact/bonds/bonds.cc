@@ -71,7 +71,7 @@ namespace akmon
                 face[k] = number(slaves[i][f].nodes[k]);
               point.faces.push_back(face);
             }
-          point.offset = relative(point, X);
+          point.offset = offset_at(point, X);
           points.push_back(std::move(point));
         }
     count_unbroken();
@@ -197,22 +197,13 @@ namespace akmon
   }
 
 
-  Tensor<1, 3>
-  Bonds::relative(const Point &point, const Values &u) const
-  {
-    Tensor<1, 3> sum;
-    for (const auto &[node, weight] : point.row)
-      sum += weight * u[node];
-    return sum;
-  }
-
-
   // u += W C^T t
   void
   Bonds::add_response(const Point &point, const Tensor<1, 3> &force, Values &u) const
   {
-    for (const auto &[node, weight] : point.row)
-      u[node] += W[node] * (weight * force);
+    visit_parts(point, force, [&](const Entry &entry, const Tensor<1, 3> &part) {
+      u[entry.first] += W[entry.first] * part;
+    });
   }
 
 
@@ -222,20 +213,23 @@ namespace akmon
     system.rows = rows;
     std::vector<std::vector<std::pair<unsigned int, Tensor<1, 3>>>> at_node(nodes.size());
     for (unsigned int r = 0; r < rows.size(); ++r)
-      for (const auto &[node, weight] : points[rows[r].point].row)
-        at_node[node].emplace_back(r, weight * rows[r].direction);
+      visit_parts(points[rows[r].point],
+                  rows[r].direction,
+                  [&](const Entry &entry, const Tensor<1, 3> &part) {
+                    at_node[entry.first].emplace_back(r, part);
+                  });
     std::vector<Eigen::Triplet<double>> triplets;
     for (unsigned int node = 0; node < nodes.size(); ++node)
       for (const auto &[i, of_i] : at_node[node])
         for (const auto &[j, of_j] : at_node[node])
-          if (const double entry = of_i * (W[node] * of_j); entry != 0.)
+          if (const double entry = j <= i ? of_i * (W[node] * of_j) : 0.; entry != 0.)
             triplets.emplace_back(i, j, entry);
     const unsigned int n = rows.size();
     system.matrix.resize(n, n);
     system.matrix.setFromTriplets(triplets.begin(), triplets.end());
     const Eigen::VectorXd diagonal = system.matrix.diagonal();
     // Directions in which all nodes are held get no force.
-    Eigen::SparseMatrix<double> regular = system.matrix;
+    auto regular = system.matrix;
     for (unsigned int i = 0; i < n; ++i)
       regular.coeffRef(i, i) += diagonal[i] > 0. ? shift * diagonal[i] : 1.;
     system.cholesky.compute(regular);
@@ -250,7 +244,7 @@ namespace akmon
     if (b.size() == 0)
       return b;
     Eigen::VectorXd t = system.cholesky.solve(b);
-    t += system.cholesky.solve(b - system.matrix * t);
+    t += system.cholesky.solve(b - system.matrix.selfadjointView<Eigen::Lower>() * t);
     return t;
   }
 

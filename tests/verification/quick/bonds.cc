@@ -129,6 +129,77 @@ namespace bonds
                            testing::Values("coupled", "decoupled", "penalty"));
 
 
+  // Bars that turn as one by 57 degrees, a thirtieth of a cell apart: the gap turns with them, and
+  // forces across it have no moment.
+  TEST(TiedBars, keep_angular_momentum_across_a_gap)
+  {
+    constexpr double gap = 0.09, spin = 1e3;
+    auto overrides     = tied_bars(0);
+    const auto speed   = shortest_text(spin * (5. + 0.5 * gap)),
+               of_body = "/Spin=100, 0, " + shortest_text(spin);
+    overrides.push_back("Bodies/left/Velocity=0, -" + speed + ", 0");
+    overrides.push_back("Bodies/right/Velocity=0, " + speed + ", 0");
+    overrides.push_back("Bodies/left" + of_body);
+    overrides.push_back("Bodies/right" + of_body);
+    overrides.push_back("Bodies/right/Position=" + shortest_text(5. + gap) + ", 0, 0");
+    overrides.push_back("Time/Step=automatic");
+    overrides.push_back("Time/End=" + shortest_text(1. / spin));
+    overrides.push_back("Probes/Names=left_face, left_middle, left_end, right_face");
+    overrides.push_back("Probes/left_face/Point=0, 4, 4"); // a corner
+    overrides.push_back("Probes/right_face/Body=right");
+    overrides.push_back("Probes/right_face/Point=" + shortest_text(gap) + ", 4, 4");
+    const auto run       = run_and_keep(shipped("two_bars"), overrides);
+    const double scale   = rho * 2. * 640. * spin * length * length / 12.,
+                 angular = change_of_momentum(run.history, "angular_momentum_") / scale;
+    double widest = 0., narrowest = gap;
+    for (std::size_t i = 0; i < run.history.n_rows(); ++i)
+      {
+        double square = 0.;
+        for (const char *const axis : {"x", "y", "z"})
+          {
+            const auto column  = std::string("_face.displacement_") + axis;
+            const double apart = (*axis == 'x' ? gap : 0.) + run.history["right" + column][i] -
+                                 run.history["left" + column][i];
+            square += apart * apart;
+          }
+        widest    = std::max(widest, std::sqrt(square));
+        narrowest = std::min(narrowest, std::sqrt(square));
+      }
+    report("change of angular momentum", angular);
+    report("widest gap over the first", widest / gap);
+    report("narrowest", narrowest / gap);
+    EXPECT_LE(angular, 1e-12);
+    EXPECT_LE(widest, 1.05 * gap);
+    EXPECT_GE(narrowest, 0.95 * gap);
+  }
+
+
+  // Glue that gives way keeps them too: it opens and slides, and what is left of it turns.
+  TEST(TiedBars, keep_momenta_while_glue_gives_way)
+  {
+    auto overrides = tied_bars(120);
+    for (const char *const entry : {"Time/Step=automatic",
+                                    "Bodies/left/Velocity=-100, 20, -50",
+                                    "Bodies/right/Spin=300, 100, 0",
+                                    "Contact/interface/Normal strength=1e3",
+                                    "Contact/interface/Shear strength=1e3",
+                                    "Contact/interface/Fracture energy=20"})
+      overrides.push_back(entry);
+    const auto run     = run_and_keep(shipped("two_bars"), overrides);
+    const double scale = rho * 640. * 100., linear = change_of_momentum(run.history) / scale,
+                 angular = change_of_momentum(run.history, "angular_momentum_") / (scale * length),
+                 energy  = run.history["bond_energy"].back() / (20. * area);
+    report("change of momentum", linear);
+    report("change of angular momentum", angular);
+    report("bond energy over G A", energy);
+    EXPECT_LE(linear, 1e-12);
+    EXPECT_LE(angular, 1e-12);
+    EXPECT_GT(energy, 0.1);
+    for (const double error : run.history["energy_error"])
+      EXPECT_LE(std::abs(error), 1e-3);
+  }
+
+
   // The glue takes its fracture energy times its area, whatever the meshes and the waves do.
   TEST(LapJoint, takes_area_times_fracture_energy)
   {

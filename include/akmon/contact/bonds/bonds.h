@@ -96,8 +96,7 @@ namespace akmon
      * @param contact_force  force at an owned node (local number)
      */
     const std::vector<NodalForce> &
-    finish_step(const NodalState &state,
-                const double effective_mass_factor,
+    finish_step(const double effective_mass_factor,
                 const std::map<unsigned int, dealii::Tensor<1, 3>> &contact_force);
 
     const std::vector<NodalForce> &
@@ -147,17 +146,21 @@ namespace akmon
       nothing
     };
 
+    using Entry = std::pair<unsigned int, double>; ///< number in `nodes`, part in C
+
     struct Point
     {
       unsigned int interface;
       unsigned int slave; ///< number in `nodes`
       double area;
-      std::vector<std::pair<unsigned int, double>> row; ///< C, by number in `nodes`
-      std::vector<std::array<unsigned int, 4>> faces;   ///< of the slave, by number in `nodes`
-      dealii::Tensor<1, 3> offset;                      ///< C x that is held; length
-      dealii::Tensor<1, 3> normal;                      ///< from master to slave
-      dealii::Tensor<1, 3> force;                       ///< on the slave side
-      WorkLine energy;                                  ///< taken so far
+      std::vector<Entry> row;                         ///< C, sorted
+      std::vector<std::array<unsigned int, 4>> faces; ///< of the slave, by number in `nodes`
+      std::vector<dealii::Tensor<1, 3>> arms;         ///< r_k by entry; length. Often empty
+      dealii::Tensor<2, 3> lever;                     ///< [o x] I^{-1}; 1/length
+      dealii::Tensor<1, 3> offset;                    ///< o that is held; length
+      dealii::Tensor<1, 3> normal;                    ///< from master to slave
+      dealii::Tensor<1, 3> force;                     ///< on the slave side
+      WorkLine energy;                                ///< taken so far
       bool broken = false, softening = false;
       Holds holds = Holds::all;   ///< at this level
       dealii::Tensor<1, 3> given; ///< part of the force that failing points give; force
@@ -180,7 +183,7 @@ namespace akmon
     struct System
     {
       std::vector<Row> rows;
-      Eigen::SparseMatrix<double> matrix;
+      Eigen::SparseMatrix<double> matrix; ///< its lower half
       Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> cholesky;
       bool valid = false;
     };
@@ -202,13 +205,23 @@ namespace akmon
     Eigen::VectorXd
     solve(const System &system, const Eigen::VectorXd &b) const;
     dealii::Tensor<1, 3>
+    offset_at(const Point &point, const Values &positions) const;
+    dealii::Tensor<1, 3>
     relative(const Point &point, const Values &u) const;
+    // Calls visitor(entry, part) with the parts of C^T t.
+    template <typename Visitor>
+    static void
+    visit_parts(const Point &point, const dealii::Tensor<1, 3> &t, const Visitor &visitor);
     void
     add_response(const Point &point, const dealii::Tensor<1, 3> &force, Values &u) const;
     void
-    update_normals(const Values &x);
+    update_normals(const Values &positions);
     void
-    follow_slip(const Values &x);
+    turn_offsets(const Values &positions, const Values &increments);
+    void
+    follow_slip(const Values &positions);
+    void
+    set_levers(const Values &positions);
     bool
     let_fail(const System &system, const Eigen::VectorXd &t);
     double
@@ -249,9 +262,23 @@ namespace akmon
     System full, reduced;
     const System *active = nullptr; ///< of what holds in this step
     double mass_factor   = 1.;
-    Values x, free;                 ///< by node: positions; reached without bonds and contact
+    Values x, before;               ///< by node: positions; last increments
+    Values free;                    ///< by node: reached without bonds and contact
     std::vector<NodalForce> forces; ///< by own node
   };
+
+
+  template <typename Visitor>
+  void
+  Bonds::visit_parts(const Point &point, const dealii::Tensor<1, 3> &t, const Visitor &visitor)
+  {
+    const auto turn = t * point.lever;
+    for (std::size_t k = 0; k < point.row.size(); ++k)
+      if (point.arms.empty())
+        visitor(point.row[k], point.row[k].second * t);
+      else
+        visitor(point.row[k], point.row[k].second * t + cross_product_3d(turn, point.arms[k]));
+  }
 
 
   template <typename Value>
