@@ -139,11 +139,6 @@ namespace akmon
           edge_searches[interface].find_pairs(x, x_reached, reach, previous, pairs);
       }
     find_obstacle_pairs(state, reach_of_obstacles);
-    if (bonds->exist())
-      pairs.erase(std::remove_if(pairs.begin(),
-                                 pairs.end(),
-                                 [&](const ContactPair &pair) { return bonds->hold(pair); }),
-                  pairs.end());
     if (solver.type != ContactSolver::Type::decoupled)
       warm_start();
   }

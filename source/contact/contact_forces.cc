@@ -66,6 +66,11 @@ namespace akmon
       {
         bonds->begin_step(state, effective_mass_factor, dx_free);
         nodes.update_ghosts(dx_free);
+        // Only now is it known which bonds hold: what has broken in this step is kept out in it.
+        pairs.erase(std::remove_if(pairs.begin(),
+                                   pairs.end(),
+                                   [&](const ContactPair &pair) { return bonds->hold(pair); }),
+                    pairs.end());
       }
     add_rigid_motions(dx_free, &RigidBody::next);
     set_rigid_mobilities();

@@ -132,7 +132,8 @@ namespace akmon
 
     const ContactPair *deepest = nullptr;
     for (const auto &pair : pairs)
-      if (pair.gap < -tolerated * pair.size && (!deepest || pair.gap < deepest->gap))
+      if (pair.gap < -tolerated * pair.size && (!deepest || pair.gap < deepest->gap) &&
+          !bonds->hold(pair))
         deepest = &pair;
     std::string message;
     if (deepest)

@@ -126,6 +126,7 @@ namespace akmon
         count_unbroken();
         active = &system_now();
       }
+    mark_held();
     for (std::size_t r = 0; r < active->rows.size(); ++r)
       add_response(points[active->rows[r].point],
                    t[r] / mass_factor * active->rows[r].direction,

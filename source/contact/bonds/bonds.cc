@@ -174,7 +174,7 @@ namespace akmon
     const auto found = number_here.find(pair.slave);
     if (found == number_here.end())
       return false;
-    return (pair.reversed ? uses : slave_uses)[found->second] > 0;
+    return (pair.reversed ? held : held_slaves)[found->second];
   }
 
 
@@ -183,17 +183,32 @@ namespace akmon
   {
     unbroken.clear();
     uses.assign(nodes.size(), 0);
-    slave_uses.assign(nodes.size(), 0);
     for (unsigned int i = 0; i < points.size(); ++i)
       if (!points[i].broken)
         {
           unbroken.push_back(i);
-          ++slave_uses[points[i].slave];
           for (const auto &entry : points[i].row)
             ++uses[entry.first];
         }
     n_unbroken = unbroken.size();
     full.valid = reduced.valid = false;
+    mark_held();
+  }
+
+
+  // Nodes of points that hold in this step.
+  void
+  Bonds::mark_held()
+  {
+    held.assign(nodes.size(), false);
+    held_slaves.assign(nodes.size(), false);
+    for (const unsigned int i : unbroken)
+      if (points[i].holds != Holds::nothing)
+        {
+          held_slaves[points[i].slave] = true;
+          for (const auto &entry : points[i].row)
+            held[entry.first] = true;
+        }
   }
 
 

@@ -200,6 +200,25 @@ namespace bonds
   }
 
 
+  // Bars that slide and press on each other when their bond gives way at once: in the same step
+  // contact keeps them apart.
+  TEST(TiedBars, do_not_enter_each_other_as_their_bond_breaks)
+  {
+    auto overrides = tied_bars(40);
+    for (const char *const entry : {"Bodies/right/Box/Cells=20, 3, 3",
+                                    "Time/Step=automatic",
+                                    "Bodies/left/Velocity=100, 100, 0",
+                                    "Contact/interface/Shear strength=10"})
+      overrides.push_back(entry);
+    const auto run           = run_and_keep(shipped("two_bars"), overrides);
+    const double penetration = largest_of(run.history["max_penetration_rel"]);
+    report("penetration over h", penetration);
+    EXPECT_LE(penetration, 1e-9);
+    EXPECT_EQ(run.history["bond_energy"].back(), 0.);
+    EXPECT_GT(run.history["active_pairs"][1], 0.);
+  }
+
+
   // The glue takes its fracture energy times its area, whatever the meshes and the waves do.
   TEST(LapJoint, takes_area_times_fracture_energy)
   {

@@ -39,7 +39,7 @@ namespace akmon
       return n_unbroken > 0;
     }
 
-    /// Whether the bonds keep a pair's slave, so that it needs no contact.
+    /// Whether the bonds keep a pair's slave in this step, so that it needs no contact.
     bool
     hold(const ContactPair &pair) const;
 
@@ -201,6 +201,8 @@ namespace akmon
     void
     count_unbroken();
     void
+    mark_held();
+    void
     factorize(System &system, const std::vector<Row> &rows) const;
     Eigen::VectorXd
     solve(const System &system, const Eigen::VectorXd &b) const;
@@ -255,7 +257,8 @@ namespace akmon
     std::vector<int> counts, first_of_rank;           ///< of values of the ranks in a gather
     std::vector<unsigned int> order;                  ///< node of the values in rank order
     std::map<unsigned int, unsigned int> number_here; ///< by local node, of own nodes
-    std::vector<unsigned int> uses, slave_uses;       ///< by node: of unbroken points
+    std::vector<unsigned int> uses;                   ///< by node: of unbroken points
+    std::vector<bool> held, held_slaves;              ///< by node: by points that hold
     std::vector<unsigned int> unbroken;
     unsigned int n_unbroken = 0;
 
