@@ -344,6 +344,7 @@ namespace akmon
     const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_start;
     const auto totals                        = timer.totals(communicator);
     screen.closing(totals, wall.count());
+    tell_of_dear_estimates(wall.count());
 
     std::map<std::string, double> seconds, imbalance;
     for (const auto &total : totals)

@@ -136,6 +136,21 @@ namespace akmon
   }
 
 
+  // Where every step strains the cells that limit it, the estimates take longer than the steps that
+  // they save.
+  void
+  Simulation::tell_of_dear_estimates(const double seconds_of_run)
+  {
+    constexpr double dear = 0.4;
+
+    const double part = timer.seconds(stages.time_step) / seconds_of_run;
+    if (parameters.time.assembled && parameters.time.automatic() && part > dear)
+      screen.message("estimates of the assembled system took " +
+                     shortest_text(std::round(100. * part)) +
+                     " % of the time: [Time] Critical step = cells is faster here");
+  }
+
+
   void
   Simulation::throw_cell_fault() const
   {

@@ -123,6 +123,8 @@ namespace akmon
     void
     show_progress();
     void
+    tell_of_dear_estimates(const double seconds_of_run);
+    void
     refuse_unstable_step() const;
     [[noreturn]] void
     throw_cell_fault() const;

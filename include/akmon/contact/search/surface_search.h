@@ -27,8 +27,8 @@ namespace akmon
 
   /**
    * Finds the partner of every slave node of one contact. In two stages: candidates (bounding
-   * boxes, across ranks, valid while nothing has moved further than half the search radius) and
-   * pairs (closest feature among the candidates, every step).
+   * boxes, across ranks, valid while bodies cannot have come closer than the search radius allows)
+   * and pairs (closest feature among the candidates, every step).
    *
    * A node's pair belongs to the node's owner, who gets the master faces it may meet, and their
    * neighbours, from the other ranks.
