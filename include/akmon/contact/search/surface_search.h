@@ -8,9 +8,9 @@
 #include <akmon/contact/search/box_grid.h>
 #include <akmon/contact/search/face_box.h>
 #include <akmon/contact/search/master_face.h>
-#include <akmon/contact/search/normal_cone.h>
 #include <akmon/contact/search/projection.h>
 #include <akmon/contact/search/rank_regions.h>
+#include <akmon/contact/search/surface_records.h>
 
 #include <algorithm>
 #include <array>
@@ -139,97 +139,21 @@ namespace akmon
     }
 
   private:
-    struct Slave
-    {
-      unsigned int node;   ///< local number
-      unsigned int number; ///< contact number
-      ContactNodes::Id id;
-      double size;                  ///< least edge of its faces, initially; length
-      double stiffness;             ///< mean of its faces' K A^2/V; force/length
-      unsigned int first_face;      ///< in slave_face_list
-      unsigned int first_candidate; ///< in candidates
-    };
-
-    // A body with slaves and one that has candidates of theirs, or twice the same.
-    struct BodyPair
-    {
-      unsigned int of_slaves, of_faces;
-      double increment = 0.; ///< the largest of a node in this step; length
-      double approach  = 0.; ///< by how much they come closer in this step at most; length
-      double travelled = 0.; ///< the same since the last build; length
-    };
-
-    // A face that a slave may meet.
-    struct Candidate
-    {
-      unsigned int face, pair; ///< in masters; of their bodies
-      double clear_of;         ///< no closer, plus what that pair has travelled; length
-    };
-
-    // A pair of bodies that a slave has candidates in.
-    struct PairAround
-    {
-      unsigned int slave, pair;
-    };
-
-    // A slave that may be within its reach of a face.
-    struct Look
-    {
-      unsigned int slave;
-      double reach; ///< length
-    };
+    using Slave      = surface_search::Slave;
+    using BodyPair   = surface_search::BodyPair;
+    using Candidate  = surface_search::Candidate;
+    using PairAround = surface_search::PairAround;
+    using Look       = surface_search::Look;
+    using Near       = surface_search::Near;
+    using ValleyFace = surface_search::ValleyFace;
+    using Memory     = surface_search::Memory;
+    using FaceArea   = surface_search::FaceArea;
+    using Partner    = surface_search::Partner;
+    using Feature    = surface_search::Feature;
 
     static constexpr double
       furthest                      = 1.1; ///< times the reach: with what is beside it, in a corner
     static constexpr double opposed = 0.02; ///< cosine: sides of an edge do not face each other
-
-    // A candidate that may be within the reach of a slave.
-    struct Near
-    {
-      unsigned int node, candidate; ///< contact number; in candidates
-    };
-
-    // A face beside a slave's partner that rises from it.
-    struct ValleyFace
-    {
-      unsigned int shared, number; ///< the first node they share, in the partner; in masters
-    };
-
-    // What earlier searches have found out about a slave, less what its surroundings may have come
-    // closer since.
-    struct Memory
-    {
-      unsigned int face      = dealii::numbers::invalid_unsigned_int; ///< the last partner's
-      bool was_outside       = false; ///< of that face, and further than the reach
-      double clear_of        = 0.;    ///< no face is closer; length
-      double others_clear_of = 0.;    ///< no other face is closer; length
-      unsigned long search   = 0;     ///< number of the one that found the foot
-      std::array<double, 2> foot{};   ///< (xi, eta) of the closest point in that face
-    };
-
-    // Of a slave face, in the configuration that was looked at last when it was asked for.
-    struct FaceArea
-    {
-      unsigned long look = 0; ///< number of that configuration
-      dealii::Tensor<1, 3> vector;
-    };
-
-    struct Partner
-    {
-      unsigned int face; ///< in masters
-      Projection projection;
-      dealii::Tensor<1, 3> normal; ///< outward, of the closest feature
-      double gap;                  ///< along the normal; length
-    };
-
-    // An edge or vertex of the surface.
-    struct Feature
-    {
-      boost::container::small_vector<unsigned int, 8> faces; ///< that share it
-      NormalCone normals;                                    ///< of these
-      dealii::Tensor<1, 3> mean;                             ///< of the normals
-      bool on_rim = false;                                   ///< of the surface
-    };
 
     void
     prefetch_face(const unsigned int face) const
