@@ -12,7 +12,20 @@ namespace flush_bodies
 {
   using namespace akmon::test;
 
-  const std::string rubber_boxes = R"(
+  // All surfaces in one.
+  const std::string contact = R"(
+subsection Contact
+  set Names = touch
+  subsection touch
+    set Slave  = all
+    set Master = all
+    set Friction coefficient = 0.3
+  end
+end
+)";
+
+
+  const std::string rubber_boxes = contact + R"(
 subsection Materials
   set Names = rubber, stiff
   subsection rubber
@@ -24,14 +37,6 @@ subsection Materials
     set Density         = 10000
     set Young's modulus = 1e9
     set Poisson's ratio = 0.3
-  end
-end
-subsection Contact
-  set Names = touch
-  subsection touch
-    set Slave  = all
-    set Master = all
-    set Friction coefficient = 0.3
   end
 end
 subsection Obstacles
@@ -177,7 +182,7 @@ end
   }
 
 
-  const std::string cylinders = R"(
+  const std::string cylinders = contact + R"(
 subsection Materials
   set Names = rubber
   subsection rubber
@@ -217,14 +222,6 @@ subsection Bodies
     end
   end
 end
-subsection Contact
-  set Names = touch
-  subsection touch
-    set Slave  = all
-    set Master = all
-    set Friction coefficient = 0.5
-  end
-end
 )";
 
 
@@ -232,7 +229,8 @@ end
   // faces.
   TEST(SpinningCylinders, touch_at_the_rim_of_one_and_part)
   {
-    const auto run           = run_text(cylinders, {"Time/End=0.3"});
+    const auto run           = run_text(cylinders,
+                              {"Time/End=0.3", "Contact/touch/Friction coefficient=0.5"});
     const double penetration = largest_of(run.history["max_penetration_rel"]);
     report("penetration over h", penetration);
     report("change of angular momentum", change_of_momentum(run.history, "angular_momentum_"));
@@ -242,7 +240,7 @@ end
   }
 
 
-  const std::string plate = R"(
+  const std::string plate = contact + R"(
 subsection Materials
   set Names = steel, hard
   subsection steel
@@ -281,14 +279,6 @@ subsection Bodies
     end
   end
 end
-subsection Contact
-  set Names = touch
-  subsection touch
-    set Slave  = all
-    set Master = all
-    set Friction coefficient = 0.1
-  end
-end
 subsection Prescribed motion
   set Names = clamp
   subsection clamp
@@ -303,7 +293,7 @@ end
   // other through the material, and do not touch.
   TEST(ThinPlate, is_not_in_contact_with_its_own_other_side)
   {
-    const auto run           = run_text(plate, {"Time/End=1e-4"});
+    const auto run = run_text(plate, {"Time/End=1e-4", "Contact/touch/Friction coefficient=0.1"});
     const double penetration = largest_of(run.history["max_penetration_rel"]);
     report("penetration over h", penetration);
     EXPECT_LT(penetration, 1e-6);
