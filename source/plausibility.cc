@@ -138,12 +138,11 @@ namespace akmon
                                      const NodalVector &velocity) const
     {
       std::vector<unsigned int> nodes;
-      for (const auto &surface : surfaces)
-        for (const auto &face :
-             discretization.faces_on(discretization.boundary_ids(section, key, surface)))
-          for (const unsigned int node : face.nodes)
-            if (node < discretization.n_owned_nodes)
-              nodes.push_back(node);
+      for (const auto &face :
+           discretization.faces_on(discretization.boundary_ids(section, key, surfaces)))
+        for (const unsigned int node : face.nodes)
+          if (node < discretization.n_owned_nodes)
+            nodes.push_back(node);
       return extent(nodes, velocity);
     }
 

@@ -95,14 +95,13 @@ namespace akmon
     if (!feature.normals.turn_sharply(feature.mean))
       return false;
     const auto foot = x[masters[partner.face].nodes[partner.projection.where]];
-    for (const auto &normal : feature.normals)
-      for (const unsigned int face : feature.faces)
-        {
-          const auto way = middle_of(segment(x, masters[face])) - foot;
-          if (normal * way > nearly_flat * way.norm())
-            return false;
-        }
-    return true;
+    return std::none_of(feature.faces.begin(), feature.faces.end(), [&](const unsigned int face) {
+      const auto way      = middle_of(segment(x, masters[face])) - foot;
+      const double height = nearly_flat * way.norm();
+      return std::any_of(feature.normals.begin(), feature.normals.end(), [&](const auto &normal) {
+        return normal * way > height;
+      });
+    });
   }
 
 
@@ -121,12 +120,10 @@ namespace akmon
 
   // Whether a feature has a face that does not look at a slave.
   bool
-  SurfaceSearch::turns_away(const ContactNodes::Field &x,
-                            const unsigned int slave,
-                            const Feature &feature) const
+  SurfaceSearch::turns_away(const unsigned int slave, const Feature &feature) const
   {
-    return !std::all_of(feature.faces.begin(), feature.faces.end(), [&](const unsigned int face) {
-      return looks_at(slave, area_vector(segment(x, masters[face])));
+    return std::any_of(feature.normals.begin(), feature.normals.end(), [&](const auto &normal) {
+      return !looks_at(slave, normal);
     });
   }
 
@@ -186,7 +183,7 @@ namespace akmon
       return aside <= tolerance;
     if (to_points || std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
       return true;
-    if (on_ridge && turns_away(x, slave, feature))
+    if (on_ridge && turns_away(slave, feature))
       return std::max(aside, -partner.gap) <= of_ridges * tolerance;
     return partner.gap >= 0. || aside <= tolerance - deepest_aside * partner.gap;
   }

@@ -266,9 +266,7 @@ namespace akmon
                     const Segment &corners,
                     const Projection &projection) const;
     bool
-    turns_away(const ContactNodes::Field &x,
-               const unsigned int slave,
-               const Feature &feature) const;
+    turns_away(const unsigned int slave, const Feature &feature) const;
     dealii::Tensor<1, 3>
     ridge_normal(const unsigned int slave, const Feature &feature) const;
     bool
