@@ -139,6 +139,8 @@ namespace akmon
           edge_searches[interface].find_pairs(x, x_reached, reach, previous, pairs);
       }
     find_obstacle_pairs(state, reach_of_obstacles);
+    for (auto &pair : pairs)
+      pair.depth = std::max(0., -pair.gap);
     if (solver.type != ContactSolver::Type::decoupled)
       warm_start();
   }

@@ -34,6 +34,14 @@ namespace akmon
   }
 
 
+  // What the gap of a pair may be at least where the step leads; length, not positive.
+  double
+  Contact::least_gap(const ContactPair &pair, const NodalState &state) const
+  {
+    return std::min(0., release(pair, state) - pair.depth);
+  }
+
+
   // An exact method would put a node that was found inside back within one step, at depth/dt, far
   // above any physical speed. So a penetration is taken back at the release speed only; it cannot
   // grow.
@@ -41,7 +49,7 @@ namespace akmon
   Contact::set_target_gaps(const NodalState &state)
   {
     for (auto &pair : pairs)
-      pair.target_gap = pair.curvature + std::max(pair.gap, -release(pair, state));
+      pair.target_gap = pair.curvature + pair.gap - least_gap(pair, state);
   }
 
 

@@ -38,9 +38,10 @@ namespace akmon
       {
         const bool rigid                   = pair.slave == numbers::invalid_unsigned_int;
         auto &interface                    = report.interfaces[pair.interface];
-        const double relative              = -pair.gap / pair.size;
-        report.max_penetration             = std::max(report.max_penetration, -pair.gap);
-        interface.max_penetration          = std::max(interface.max_penetration, -pair.gap);
+        const double depth                 = pair.entered ? 0. : pair.depth;
+        const double relative              = depth / pair.size;
+        report.max_penetration             = std::max(report.max_penetration, depth);
+        interface.max_penetration          = std::max(interface.max_penetration, depth);
         interface.max_penetration_relative = std::max(interface.max_penetration_relative, relative);
         if (relative > report.max_penetration_relative)
           {

@@ -31,6 +31,7 @@ namespace akmon
   {
     constexpr unsigned int most_rounds = 40;
     constexpr unsigned int unsettled   = 10; // rounds after which edges are followed all the same
+    constexpr unsigned int until_refit = 6;
     constexpr double touch_anew        = std::numeric_limits<double>::infinity();
 
     coupled->solve(dx_free);
@@ -42,12 +43,15 @@ namespace akmon
                                        [](const auto &search) { return search.may_miss_dips(); });
     for (unsigned int round = 1; round < most_rounds; ++round)
       {
-        const auto poses  = reach();
-        auto joining      = follow_touches(poses);
-        const double here = std::max(follow_partners(state, poses, round),
+        const auto poses             = reach();
+        auto joining                 = follow_touches(poses);
+        const double here            = std::max(follow_partners(state, poses, round),
                                      joining.empty() ? 0. : touch_anew);
-        double excess     = Utilities::MPI::max(here, discretization.communicator());
-        if ((excess <= 1. || round % unsettled == 0) && has_edges)
+        const double on_this_rank[2] = {here, may_be_entered() ? 1. : 0.};
+        double on_all[2];
+        Utilities::MPI::max(on_this_rank, discretization.communicator(), on_all);
+        double excess = on_all[0];
+        if ((excess <= 1. || round % unsettled == 0) && (has_edges || on_all[1] > 0.))
           {
             const auto bulges = follow_bulges(poses);
             joining.insert(joining.end(), bulges.begin(), bulges.end());
@@ -56,8 +60,12 @@ namespace akmon
           }
         if (excess <= 1.)
           return;
+        if (round % until_refit == 0 && excess != touch_anew && refit_pairs())
+          excess = touch_anew;
         if (!joining.empty())
           {
+            for (auto &pair : joining)
+              pair.depth = std::max(0., -pair.gap);
             pairs.insert(pairs.end(), joining.begin(), joining.end());
             std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
               return a.key() < b.key();
@@ -68,6 +76,19 @@ namespace akmon
           coupled->take_up_anew(pairs, dx_free, friction_of_pairs(state));
         coupled->solve(dx_free);
       }
+  }
+
+
+  // Whether the step may lead a slave into a body that it has no pair with.
+  bool
+  Contact::may_be_entered() const
+  {
+    return std::any_of(searches.begin(),
+                       searches.end(),
+                       [](const auto &search) { return search.watches_slaves(); }) ||
+           std::any_of(pairs.begin(), pairs.end(), [](const auto &pair) {
+             return pair.may_enter();
+           });
   }
 
 
@@ -124,6 +145,8 @@ namespace akmon
       }
     for (const auto &search : edge_searches)
       search.join_dips(x, x_reached, dx_reached, pairs, joining);
+    for (const auto &search : searches)
+      search.join_entering(x, x_reached, dx_reached, pairs, joining);
     return joining;
   }
 
@@ -144,6 +167,19 @@ namespace akmon
         poses.push_back(bodies[i].next_pose(increment));
       }
     return poses;
+  }
+
+
+  // Where gaps do not settle because segments turn far in a step, the constraints are those of the
+  // configuration that the last solution leads to: its gradients are right there, so that rounds
+  // converge as Newton's method does. Whether there were any, on any rank.
+  bool
+  Contact::refit_pairs()
+  {
+    int n_refitted = 0;
+    for (ContactPair *const pair : unsettled)
+      n_refitted += searches[pair->search].refit(x, x_reached, dx_reached, *pair);
+    return Utilities::MPI::max(n_refitted, discretization.communicator()) > 0;
   }
 
 
@@ -250,7 +286,8 @@ namespace akmon
                          [&](const auto node) { return dx_contact[node] != dx_followed[node]; });
     };
 
-    double largest      = 0.;
+    double largest = 0.;
+    unsettled.clear();
     const auto &visited = coupled->participants();
     for (std::size_t i = 0; i < visited.size(); ++i)
       {
@@ -266,10 +303,11 @@ namespace akmon
                                           least_of_features * pair->size :
                                           0.);
         const double linear  = pair->gap + pair->normal * motion;
-        const double allowed = std::min(0., pair->gap + release(*pair, state));
+        const double allowed = least_gap(*pair, state);
         double reached;
         const bool stays_open = pair->normal_force == 0. && linear - bound >= allowed;
-        if (stays_open || !reached_gap(*pair, poses, reached))
+        pair->lost            = !stays_open && !reached_gap(*pair, poses, reached);
+        if (stays_open || pair->lost)
           continue;
         const double curvature = std::clamp(reached - linear, -bound, bound);
         const bool late        = round > many_rounds;
@@ -278,7 +316,11 @@ namespace akmon
         const double excess    = (only_closes ? std::max(0., -change) : std::abs(change)) /
                               (pair->size * gap_tolerance(*pair, late));
         if (pair->normal_force > 0. || linear + curvature < allowed)
-          largest = std::max(largest, excess);
+          {
+            largest = std::max(largest, excess);
+            if (excess > 1. && !pair->of_edges && pair->interface < contacts.size())
+              unsettled.push_back(pair);
+          }
         pair->settled = excess <= 1.;
         if (!pair->settled && only_closes && !pair->of_features)
           pair->curvature = curvature;

@@ -245,6 +245,12 @@ namespace akmon
     solve_coupled(const NodalState &state);
     std::vector<double>
     friction_of_pairs(const NodalState &state) const;
+    double
+    least_gap(const ContactPair &pair, const NodalState &state) const;
+    bool
+    may_be_entered() const;
+    bool
+    refit_pairs();
     std::vector<Pose>
     reach();
     std::vector<ContactPair>
@@ -321,6 +327,7 @@ namespace akmon
     ContactNodes::Field dx_reached;  ///< increments that the last solution leads to
     ContactNodes::Field dx_followed; ///< increments by contact that gaps have been measured for
     std::vector<ContactPair> pairs, previous; ///< of this step, of the one before
+    std::vector<ContactPair *> unsettled; ///< of nodes, whose gaps the last round found otherwise
     std::vector<ContactNodes::Contribution> contributions;
     std::vector<NodalForce> forces;
   };

@@ -64,6 +64,7 @@ namespace akmon
 
     dealii::Tensor<1, 3> normal; ///< of the partner, outward
     double gap;                  ///< n . g_0, negative when penetrating; length
+    double depth = 0.;           ///< inside the partner, as the search found it; length
     double size;                 ///< of the cell faces at the slave; length
     double stiffness = 0.;       ///< what penalty springs are a part of; force/length
     dealii::Tensor<1, 3> place;  ///< of the slave; length
@@ -81,6 +82,8 @@ namespace akmon
     double returns      = 0.;            ///< part of a correction that the next round lacked again
     bool settled        = false;         ///< it lacked nothing that counts
     bool wanders        = false;         ///< the step leads to another face
+    bool lost           = false;         ///< the step leads to where there is no partner
+    bool entered        = false;         ///< joined in this step: before, the slave was beside it
     double target_gap   = 0.;            ///< gap of which no more may be lost in this step; length
     double normal_force = 0.;            ///< t_n, on the slave along the normal; force
     dealii::Tensor<1, 3> tangential_force; ///< t_tau, on the slave; force
@@ -111,6 +114,13 @@ namespace akmon
     is_dip() const
     {
       return of_edges && slot > 0;
+    }
+
+    /// Whether the step leads past the edges of its face, where its gap may tell nothing.
+    bool
+    may_enter() const
+    {
+      return lost || (shares_corner && wanders);
     }
 
     void

@@ -95,11 +95,18 @@ namespace akmon
             share_corner(first, pairs);
           }
       }
-    // The mean normal of an edge is none of its faces'.
+    // The mean normal of an edge is none of its faces'. Behind one of these, but in front of the
+    // edge, the slave is beside a ridge.
     if (pairs[first].shares_corner && partner.projection.feature != Projection::Feature::face)
       {
+        const double gap = normal * partner.projection.offset;
+        if (gap < in_front * slaves[slave].size && pairs[first].gap >= 0.)
+          {
+            pairs[first].shares_corner = false;
+            return;
+          }
         partner.normal = normal;
-        partner.gap    = normal * partner.projection.offset;
+        partner.gap    = gap;
         add_pair(x, slave, partner, pairs);
         pairs[first] = pairs.back();
         pairs.pop_back();

@@ -18,7 +18,8 @@ namespace akmon
     constexpr double steps      = 2.;   // that edges may slide beyond their ends until they meet
 
 
-    // How far edges that cross do so beyond corners, where there is nothing that could be hit.
+    // How far edges that cross do so beyond corners, where there is nothing that could be hit: but
+    // for a corner that is in the other body by then.
     double
     past_corners(const ContactNodes::Field &x,
                  const FeatureEdge &slave,
@@ -26,12 +27,19 @@ namespace akmon
                  const double s,
                  const double t)
     {
-      const auto past = [&](const FeatureEdge &edge, const double part) {
-        return edge.end[part > 0.5] ?
-                 past_end(part) * (x[edge.nodes[1]] - x[edge.nodes[0]]).norm() :
-                 0.;
+      const auto past = [&](const FeatureEdge &edge,
+                            const double part,
+                            const FeatureEdge &other,
+                            const double other_part) {
+        const unsigned int end = part > 0.5;
+        if (!edge.end[end] || past_end(part) == 0.)
+          return 0.;
+        const auto from_other = x[edge.nodes[end]] - point_on(x, other, other_part);
+        return EdgeWedge(x, other).contains(from_other) ?
+                 0. :
+                 past_end(part) * (x[edge.nodes[1]] - x[edge.nodes[0]]).norm();
       };
-      return past(slave, s) + past(master, t);
+      return past(slave, s, master, t) + past(master, t, slave, s);
     }
 
 

@@ -248,7 +248,8 @@ namespace akmon
     const double product = FaceBox<double>::dot(boxes_of_masters[face].edges[2],
                                                 components(outward));
     const auto &nodes    = masters[face].nodes;
-    return (product <= 0. || product * product <= same_way * same_way * outward.norm_square()) &&
+    return (fetched[face].body != discretization.body_of_node[slaves[slave].node] ||
+            product <= 0. || product * product <= same_way * same_way * outward.norm_square()) &&
            std::find(nodes.begin(), nodes.end(), slaves[slave].number) == nodes.end();
   }
 

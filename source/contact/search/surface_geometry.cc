@@ -125,14 +125,54 @@ namespace akmon
   }
 
 
-  // Whether a face with an area vector looks towards the slave's surface.
+  // Whether a face with an area vector looks towards the slave's surface: its mean, or one of its
+  // faces clearly. The mean alone would leave out the small face of a corner that is bent.
   bool
   SurfaceSearch::looks_at(const unsigned int slave, const Tensor<1, 3> &area) const
   {
-    const auto &outward  = outwards[slave];
-    const double product = area * outward, area_2 = area.norm_square();
-    return area_2 > 0. && product <= 0. &&
-           product * product >= opposed * opposed * area_2 * outward.norm_square();
+    constexpr double clearly = 0.5; // cosine
+
+    const double area_2 = area.norm_square();
+    const auto opposes  = [&](const Tensor<1, 3> &outward, const double cosine) {
+      const double product = area * outward;
+      return product <= 0. && product * product >= cosine * cosine * area_2 * outward.norm_square();
+    };
+    if (!(area_2 > 0.))
+      return false;
+    if (opposes(outwards[slave], opposed))
+      return true;
+    for (unsigned int i = slaves[slave].first_face; i < slaves[slave + 1].first_face; ++i)
+      if (opposes(face_areas[slave_face_list[i]].vector, clearly))
+        return true;
+    return false;
+  }
+
+
+  // Whether a face looks towards the slave's surface, or is of another body and the slave in front
+  // of it, not beside a sharp edge: then it is outside, however its own surface is bent.
+  bool
+  SurfaceSearch::faces_slave(const ContactNodes::Field &x,
+                             const unsigned int slave,
+                             const Segment &corners,
+                             const Partner &partner) const
+  {
+    constexpr double in_front = -0.01, beside = 0.5; // of the cell size; of the gap
+
+    const auto area = area_vector(corners);
+    if (looks_at(slave, area))
+      return true;
+    const auto &offset  = partner.projection.offset;
+    const double gap    = area * offset / area.norm();
+    const double within = -in_front * slaves[slave].size;
+    if (fetched[partner.face].body == discretization.body_of_node[slaves[slave].node] ||
+        gap <= -within)
+      return false;
+    if (partner.projection.feature == Projection::Feature::face)
+      return true;
+    if ((offset - gap * area / area.norm()).norm() > std::max(within, beside * gap))
+      return false;
+    const Feature feature = feature_of(x, partner);
+    return !feature.on_rim && !feature.normals.turn_sharply(feature.mean);
   }
 
 

@@ -9,7 +9,7 @@ namespace akmon
 {
   using namespace dealii;
 
-  // The closest candidate face that looks towards the slave's surface and is not part of it. The
+  // The closest candidate face that faces the slave's surface and is not part of it. The
   // partner of the last search tells how close it is at least, and often that no other face can
   // count; which of equally close faces is taken does not depend on it.
   bool
@@ -21,23 +21,26 @@ namespace akmon
     constexpr double largest = std::numeric_limits<double>::max();
 
     Memory &memory   = memories[slave];
+    memory.refused   = largest;
     const auto point = x[slaves[slave].number];
     double best = largest, bound = largest;
     if (memory.face != numbers::invalid_unsigned_int)
-      if (const auto corners = segment(x, masters[memory.face]);
-          looks_at(slave, area_vector(corners)))
-        {
-          // Its foot was in the step before or does not count: ranks may forget older ones.
-          const bool is_fresh = memory.search + 1 == n_searches;
-          partner.face        = memory.face;
-          partner.projection  = project(point,
-                                       corners,
-                                       near_border,
-                                       is_fresh ? memory.foot : std::array<double, 2>());
-          bound               = partner.projection.offset.norm();
-          if (memory.others_clear_of > std::max(bound, reach))
-            return true;
-        }
+      {
+        // Its foot was in the step before or does not count: ranks may forget older ones.
+        const bool is_fresh = memory.search + 1 == n_searches;
+        const auto corners  = segment(x, masters[memory.face]);
+        partner.face        = memory.face;
+        partner.projection  = project(point,
+                                     corners,
+                                     near_border,
+                                     is_fresh ? memory.foot : std::array<double, 2>());
+        if (faces_slave(x, slave, corners, partner))
+          {
+            bound = partner.projection.offset.norm();
+            if (memory.others_clear_of > std::max(bound, reach))
+              return true;
+          }
+      }
     const Projection of_last = partner.projection;
     std::array<double, 2> least_bounds{{largest, largest}}; // of all faces
     unsigned int with_least = numbers::invalid_unsigned_int;
@@ -54,16 +57,24 @@ namespace akmon
         if (f != memory.face && at_least > std::min(bound, best))
           continue;
         const auto corners = segment(x, masters[f]);
-        if (!looks_at(slave, area_vector(corners)))
+        const bool is_own  = fetched[f].body == discretization.body_of_node[slaves[slave].node];
+        if (is_own && !looks_at(slave, area_vector(corners)))
           continue;
-        const Projection projection = f == memory.face ? of_last : project(point, corners);
-        if (const double distance = projection.offset.norm();
-            distance < best && lies_on(x, slave, corners, projection) &&
-            !is_through_body(slave, f, corners, projection))
+        const Partner candidate = {f, f == memory.face ? of_last : project(point, corners), {}, 0.};
+        const auto &projection  = candidate.projection;
+        const double distance   = projection.offset.norm();
+        if (distance >= best)
+          continue;
+        if (!faces_slave(x, slave, corners, candidate) || !lies_on(x, slave, corners, projection) ||
+            is_through_body(slave, f, corners, projection))
           {
-            best               = distance;
-            partner.face       = f;
-            partner.projection = projection;
+            if (!is_own)
+              memory.refused = std::min(memory.refused, distance);
+          }
+        else
+          {
+            best    = distance;
+            partner = candidate;
           }
       }
     const bool found       = best < largest;
@@ -73,27 +84,80 @@ namespace akmon
 
 
   bool
-  SurfaceSearch::gap_at(const ContactNodes::Field &x, ContactPair &pair, double &gap) const
+  SurfaceSearch::partner_at(const ContactNodes::Field &x,
+                            const ContactPair &pair,
+                            Partner &partner) const
   {
     const unsigned int slave = pair.row;
-    Partner partner;
-    partner.face       = pair.face;
-    partner.projection = project(x[slaves[slave].number],
+    partner.face             = pair.face;
+    partner.projection       = project(x[slaves[slave].number],
                                  segment(x, masters[pair.face]),
                                  near_border,
                                  pair.foot);
     if (partner.projection.feature != Projection::Feature::face)
       slide_to_neighbour(x, slave, pair.shares_corner, partner);
-    pair.wanders = partner.projection.feature != Projection::Feature::face ||
+    if (!pair.shares_corner)
+      return complete(x, slave, partner);
+    partner.normal = face_normal(x, partner);
+    partner.gap    = partner.normal * partner.projection.offset;
+    return true;
+  }
+
+
+  bool
+  SurfaceSearch::gap_at(const ContactNodes::Field &x, ContactPair &pair, double &gap) const
+  {
+    Partner partner;
+    const bool found = partner_at(x, pair, partner);
+    pair.wanders     = partner.projection.feature != Projection::Feature::face ||
                    partner.face != pair.face;
-    if (pair.shares_corner)
-      {
-        gap = face_normal(x, partner) * partner.projection.offset;
-        return true;
-      }
-    const bool found = complete(x, slave, partner);
-    gap              = partner.gap;
+    gap = partner.gap;
     return found;
+  }
+
+
+  bool
+  SurfaceSearch::refit(const ContactNodes::Field &x,
+                       const ContactNodes::Field &reached,
+                       const ContactNodes::Field &increments,
+                       ContactPair &pair) const
+  {
+    constexpr double smooth = 0.9; // cosine: across a ridge it would be another constraint
+
+    Partner partner;
+    if (!partner_at(reached, pair, partner) || partner.normal * pair.normal < smooth)
+      return false;
+    const double gap = partner.gap;
+    take_back(x, pair.row, partner);
+    std::vector<ContactPair> fresh;
+    add_pair(x, pair.row, partner, fresh);
+    ContactPair &next     = fresh.front();
+    next.slot             = pair.slot;
+    next.shares_corner    = pair.shares_corner;
+    next.depth            = pair.depth;
+    next.entered          = pair.entered;
+    next.wanders          = pair.wanders;
+    next.normal_force     = pair.normal_force;
+    next.tangential_force = next.tangential_part(pair.tangential_force);
+    next.sticks           = pair.sticks;
+    next.curvature        = gap - next.gap - next.normal * next.relative(increments);
+    pair                  = next;
+    return true;
+  }
+
+
+  // The gap before a step along the normal to the place where it leads.
+  void
+  SurfaceSearch::take_back(const ContactNodes::Field &x,
+                           const unsigned int slave,
+                           Partner &partner) const
+  {
+    const auto corners = segment(x, masters[partner.face]);
+    auto &projection   = partner.projection;
+    projection.offset  = x[slaves[slave].number];
+    for (unsigned int k = 0; k < 4; ++k)
+      projection.offset -= projection.N[k] * corners[k];
+    partner.gap = partner.normal * projection.offset;
   }
 
 
@@ -215,6 +279,7 @@ namespace akmon
   {
     ++n_configurations;
     ++n_searches;
+    watched.clear();
     advance(motions);
     choose_looks(steps, least_reach);
     choose_near_candidates();
@@ -272,7 +337,9 @@ namespace akmon
       {
         // Faces around a fold may turn towards the slave.
         memory.face     = numbers::invalid_unsigned_int;
-        memory.clear_of = reach + 0.1 * search_radius;
+        memory.clear_of = std::min(reach + 0.1 * search_radius, memory.refused);
+        if (memory.refused <= reach)
+          watched.push_back(slave);
         return;
       }
     memory.face           = partner.face;
@@ -283,15 +350,37 @@ namespace akmon
     const bool outside = partner.projection.offset *
                            area_vector(segment(x, masters[partner.face])) >
                          0.;
-    memory.clear_of    = outside ? distance : 0.;
-    memory.was_outside = outside && distance > reach;
-    if (memory.was_outside || !complete(x, slave, partner))
+    memory.clear_of    = outside ? std::min(distance, memory.refused) : 0.;
+    memory.was_outside = outside && memory.clear_of > reach;
+    if (memory.was_outside)
       return;
+    if ((outside && distance > reach) || !complete(x, slave, partner))
+      {
+        watched.push_back(slave);
+        return;
+      }
     add_pair(x, slave, partner, pairs);
     if (coupled && distance <= reach && memory.others_clear_of <= furthest * reach)
       {
         add_valley_pairs(x, reach, partner, pairs);
         add_corner_pairs(x, reach, pairs);
+        if (is_near_others(slave, reach, partner.face))
+          watched.push_back(slave);
       }
+  }
+
+
+  // Whether a slave with a partner may be within reach of a third body.
+  bool
+  SurfaceSearch::is_near_others(const unsigned int slave,
+                                const double reach,
+                                const unsigned int partner) const
+  {
+    const unsigned int own = discretization.body_of_node[slaves[slave].node];
+    for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
+      if (const unsigned int body = fetched[candidates[i].face].body;
+          body != own && body != fetched[partner].body && bound_of_distance(i) <= reach)
+        return true;
+    return false;
   }
 } // namespace akmon

@@ -128,6 +128,17 @@ namespace akmon
   }
 
 
+  // Whether a slave behind the plane through a ridge is in front of one of its faces.
+  bool
+  SurfaceSearch::is_beside(const Partner &partner, const Feature &feature)
+  {
+    return partner.gap < 0. &&
+           std::any_of(feature.normals.begin(), feature.normals.end(), [&](const auto &normal) {
+             return normal * partner.projection.offset > 0.;
+           });
+  }
+
+
   // What is further inside a face has not come through it: it belongs to another side of the body.
   // A node of the same body is in the material behind its faces, however thin that is.
   double
@@ -170,10 +181,19 @@ namespace akmon
         return within();
       }
 
-    const Feature feature = feature_of(x, partner);
-    const bool on_ridge   = !feature.on_rim && !to_points && is_ridge(x, partner, feature);
-    partner.normal        = on_ridge ? ridge_normal(slave, feature) : feature.mean;
-    partner.gap           = partner.normal * projection.offset;
+    const Feature feature       = feature_of(x, partner);
+    const bool on_ridge         = !feature.on_rim && !to_points && is_ridge(x, partner, feature);
+    partner.normal              = on_ridge ? ridge_normal(slave, feature) : feature.mean;
+    partner.gap                 = partner.normal * projection.offset;
+    const bool is_inside_border = std::max(std::abs(projection.xi), std::abs(projection.eta)) <
+                                  at_border;
+    const bool beside = on_ridge && is_beside(partner, feature);
+    if (beside && is_inside_border && face_normal(x, partner) * projection.offset > 0.)
+      {
+        partner.normal = face_normal(x, partner);
+        partner.gap    = partner.normal * projection.offset;
+        return within();
+      }
     if (!within())
       return false;
     const double aside     = (projection.offset - partner.gap * partner.normal).norm();
@@ -181,9 +201,9 @@ namespace akmon
     const double tolerance = (to_points ? 0.5 : contact.rim_tolerance) * face_size;
     if (feature.on_rim)
       return aside <= tolerance;
-    if (to_points || std::max(std::abs(projection.xi), std::abs(projection.eta)) < at_border)
+    if (to_points || is_inside_border)
       return true;
-    if (on_ridge && turns_away(slave, feature))
+    if (on_ridge && (beside || turns_away(slave, feature)))
       return std::max(aside, -partner.gap) <= of_ridges * tolerance;
     return partner.gap >= 0. || aside <= tolerance - deepest_aside * partner.gap;
   }

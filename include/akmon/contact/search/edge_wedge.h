@@ -59,6 +59,13 @@ namespace akmon
              cross_product_3d(normal, normals[1]) * along >= -tilted;
     }
 
+    /// Whether a place beside the edge is in the body, behind both faces.
+    bool
+    contains(const dealii::Tensor<1, 3> &from_edge) const
+    {
+      return from_edge * normals[0] < 0. && from_edge * normals[1] < 0.;
+    }
+
     /// Whether a place beside the edge is over one of its faces, no higher than a length.
     bool
     is_under(const dealii::Tensor<1, 3> &from_edge, const double height) const

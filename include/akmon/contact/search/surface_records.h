@@ -84,8 +84,9 @@ namespace akmon
       bool was_outside       = false; ///< of that face, and further than the reach
       double clear_of        = 0.;    ///< no face is closer; length
       double others_clear_of = 0.;    ///< no other face is closer; length
-      unsigned long search   = 0;     ///< number of the one that found the foot
-      std::array<double, 2> foot{};   ///< (xi, eta) of the closest point in that face
+      double refused = 0.; ///< distance of another body's closest face that is no partner; length
+      unsigned long search = 0;     ///< number of the one that found the foot
+      std::array<double, 2> foot{}; ///< (xi, eta) of the closest point in that face
     };
 
 

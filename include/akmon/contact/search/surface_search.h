@@ -109,6 +109,36 @@ namespace akmon
     bool
     gap_at(const ContactNodes::Field &x, ContactPair &pair, double &gap) const;
 
+    /// Let a pair be one of the configuration that a step leads to, with its normal and closest
+    /// point there; false if it must stay as it is. Parameters as for join_entering().
+    bool
+    refit(const ContactNodes::Field &x,
+          const ContactNodes::Field &reached,
+          const ContactNodes::Field &increments,
+          ContactPair &pair) const;
+
+    /// Whether there are slaves near bodies that they have no pair with.
+    bool
+    watches_slaves() const
+    {
+      return !watched.empty();
+    }
+
+    /**
+     * Append pairs for slaves that a step leads into a body although they had no pair, or have lost
+     * theirs.
+     * @param x           of the last search
+     * @param reached     where the step leads
+     * @param increments  to there
+     * @param pairs       of the last search, and those that have joined them, sorted by their keys
+     */
+    void
+    join_entering(const ContactNodes::Field &x,
+                  const ContactNodes::Field &reached,
+                  const ContactNodes::Field &increments,
+                  const std::vector<ContactPair> &pairs,
+                  std::vector<ContactPair> &joining) const;
+
     /// Owned and ghost faces of both surfaces.
     const std::vector<BoundaryFace> &
     surface_faces() const
@@ -237,6 +267,13 @@ namespace akmon
     bool
     looks_at(const unsigned int slave, const dealii::Tensor<1, 3> &area) const;
     bool
+    is_near_others(const unsigned int slave, const double reach, const unsigned int partner) const;
+    bool
+    faces_slave(const ContactNodes::Field &x,
+                const unsigned int slave,
+                const Segment &corners,
+                const Partner &partner) const;
+    bool
     opposes(const ContactNodes::Field &x, const unsigned int face, const unsigned int slave) const;
     bool
     lies_on(const ContactNodes::Field &x,
@@ -267,6 +304,8 @@ namespace akmon
                     const Projection &projection) const;
     bool
     turns_away(const unsigned int slave, const Feature &feature) const;
+    static bool
+    is_beside(const Partner &partner, const Feature &feature);
     dealii::Tensor<1, 3>
     ridge_normal(const unsigned int slave, const Feature &feature) const;
     bool
@@ -291,6 +330,19 @@ namespace akmon
     add_corner_pairs(const ContactNodes::Field &x,
                      const double reach,
                      std::vector<ContactPair> &pairs);
+    bool
+    partner_at(const ContactNodes::Field &x, const ContactPair &pair, Partner &partner) const;
+    void
+    take_back(const ContactNodes::Field &x, const unsigned int slave, Partner &partner) const;
+    bool
+    entered_face(const ContactNodes::Field &reached,
+                 const unsigned int slave,
+                 Partner &partner) const;
+    void
+    trace_back(const ContactNodes::Field &x,
+               const ContactNodes::Field &reached,
+               const unsigned int slave,
+               Partner &partner) const;
     void
     snap_to_closest_node(const ContactNodes::Field &x,
                          const dealii::Tensor<1, 3> &slave,
@@ -318,6 +370,7 @@ namespace akmon
     std::vector<BodyPair> body_pairs;
     std::vector<PairAround> pairs_around; ///< by slave
     std::vector<Look> looks;              ///< in this search
+    std::vector<unsigned int> watched;    ///< slaves near bodies that they have no pair with
     std::vector<Near> near;               ///< in this search, the first n_near ones
     unsigned int n_near = 0;
     std::vector<ValleyFace> valley;                ///< of a slave
