@@ -9,6 +9,29 @@ namespace akmon
 {
   using namespace dealii;
 
+  // The distance of the partner of the last search, which becomes the partner; the largest number
+  // there is where it cannot be one any more.
+  double
+  SurfaceSearch::distance_of_last(const ContactNodes::Field &x,
+                                  const unsigned int slave,
+                                  Partner &partner) const
+  {
+    const Memory &memory = memories[slave];
+    if (memory.face == numbers::invalid_unsigned_int)
+      return std::numeric_limits<double>::max();
+    // Its foot was in the step before or does not count: ranks may forget older ones.
+    const bool is_fresh = memory.search + 1 == n_searches;
+    const auto corners  = segment(x, masters[memory.face]);
+    partner.face        = memory.face;
+    partner.projection  = project(x[slaves[slave].number],
+                                 corners,
+                                 near_border,
+                                 is_fresh ? memory.foot : std::array<double, 2>());
+    return faces_slave(x, slave, corners, partner) ? partner.projection.offset.norm() :
+                                                     std::numeric_limits<double>::max();
+  }
+
+
   // The closest candidate face that faces the slave's surface and is not part of it. The
   // partner of the last search tells how close it is at least, and often that no other face can
   // count; which of equally close faces is taken does not depend on it.
@@ -20,27 +43,13 @@ namespace akmon
   {
     constexpr double largest = std::numeric_limits<double>::max();
 
-    Memory &memory   = memories[slave];
-    memory.refused   = largest;
-    const auto point = x[slaves[slave].number];
-    double best = largest, bound = largest;
-    if (memory.face != numbers::invalid_unsigned_int)
-      {
-        // Its foot was in the step before or does not count: ranks may forget older ones.
-        const bool is_fresh = memory.search + 1 == n_searches;
-        const auto corners  = segment(x, masters[memory.face]);
-        partner.face        = memory.face;
-        partner.projection  = project(point,
-                                     corners,
-                                     near_border,
-                                     is_fresh ? memory.foot : std::array<double, 2>());
-        if (faces_slave(x, slave, corners, partner))
-          {
-            bound = partner.projection.offset.norm();
-            if (memory.others_clear_of > std::max(bound, reach))
-              return true;
-          }
-      }
+    Memory &memory     = memories[slave];
+    memory.refused     = largest;
+    const auto point   = x[slaves[slave].number];
+    const double bound = distance_of_last(x, slave, partner);
+    double best        = largest;
+    if (bound < largest && memory.others_clear_of > std::max(bound, reach))
+      return true;
     const Projection of_last = partner.projection;
     std::array<double, 2> least_bounds{{largest, largest}}; // of all faces
     unsigned int with_least = numbers::invalid_unsigned_int;

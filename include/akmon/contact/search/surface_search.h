@@ -253,6 +253,10 @@ namespace akmon
     choose_near_candidates();
     void
     bound_distances(const ContactNodes::Field &x);
+    double
+    distance_of_last(const ContactNodes::Field &x,
+                     const unsigned int slave,
+                     Partner &partner) const;
     bool
     closest_face(const ContactNodes::Field &x,
                  const unsigned int slave,
