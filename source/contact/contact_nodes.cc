@@ -147,7 +147,8 @@ namespace akmon
     // A node has few, which are nearly sorted. Pairs of the same slave are of one rank and stay in
     // their order.
     const auto comes_before = [](const Contribution &a, const Contribution &b) {
-      return std::tie(a.interface, a.slave) < std::tie(b.interface, b.slave);
+      return std::tie(a.interface, a.of_rigid_feature, a.slave) <
+             std::tie(b.interface, b.of_rigid_feature, b.slave);
     };
     for (unsigned int node = 0; node < n_owned(); ++node)
       {

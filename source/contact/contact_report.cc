@@ -20,8 +20,7 @@ namespace akmon
     Tensor<1, 3>
     place_of(const ContactPair &pair, const NodalState &state)
     {
-      const bool of_node = pair.slave != numbers::invalid_unsigned_int && !pair.of_edges;
-      return of_node ? at_node(state.x, pair.slave) : pair.place;
+      return pair.of_node() ? at_node(state.x, pair.slave) : pair.place;
     }
   } // namespace
 
@@ -36,7 +35,7 @@ namespace akmon
     report.interfaces.resize(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
       {
-        const bool rigid                   = pair.slave == numbers::invalid_unsigned_int;
+        const bool rigid                   = !pair.has_slave_node();
         auto &interface                    = report.interfaces[pair.interface];
         const double relative              = -pair.gap / pair.size;
         report.max_penetration             = std::max(report.max_penetration, -pair.gap);
@@ -78,10 +77,10 @@ namespace akmon
   {
     std::vector<Patch> result(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
-      if (pair.normal_force > 0. && !pair.of_edges && pair.slave != numbers::invalid_unsigned_int)
+      if (pair.normal_force > 0. && pair.of_node())
         {
           const bool both_sides = solver.type != ContactSolver::Type::decoupled &&
-                                  pair.interface < contacts.size() &&
+                                  pair.kind == ContactPair::Kind::node_to_face &&
                                   contacts[pair.interface].symmetric;
           result[pair.interface].area += (both_sides ? 0.5 : 1.) *
                                          areas.facing(state.x, pair.slave, pair.normal);
@@ -138,7 +137,7 @@ namespace akmon
     std::string message;
     if (deepest)
       {
-        const bool rigid = deepest->slave == numbers::invalid_unsigned_int;
+        const bool rigid = !deepest->has_slave_node();
         const auto place = place_of(*deepest, state);
         message          = "[" +
                   std::string(deepest->interface < contacts.size() ? "Contact/" : "Obstacles/") +

@@ -22,7 +22,7 @@ namespace akmon
 
       double largest = 0.;
       for (const ContactPair *const pair : pairs)
-        if (pair->slave == numbers::invalid_unsigned_int)
+        if (!pair->has_slave_node())
           largest = std::max(largest, rounding * (1. + pair->place.norm() / pair->size));
       return largest;
     }
@@ -58,7 +58,7 @@ namespace akmon
     friction_of_all.clear();
     active.clear();
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (pairs[i].target_gap <= margin || pairs[i].is_touch())
+      if (pairs[i].target_gap <= margin || pairs[i].kind == ContactPair::Kind::rigid_touch)
         {
           all.push_back(&pairs[i]);
           friction_of_all.push_back(friction_of_pairs[i]);

@@ -161,7 +161,8 @@ namespace akmon
 
     std::vector<ContactPair> known;
     for (const auto &pair : previous)
-      if (pair.interface == interface && pair.of_edges && pair.slot > 0 && pair.normal_force > 0.)
+      if (pair.interface == interface && pair.kind == ContactPair::Kind::dip &&
+          pair.normal_force > 0.)
         {
           known.push_back(pair);
           known.back().slot %= n_kinds;
@@ -178,8 +179,7 @@ namespace akmon
             !are_opposed(x, slaves[slave], masters[master], reach, crossing) ||
             past_end(crossing.s) > 0. || past_end(crossing.t) > 0.)
           continue;
-        auto pair = make_pair(x, slave, master, crossing);
-        pair.slot = of_smooth_edge;
+        const auto pair = make_line_pair(x, slave, master, crossing);
         if (find(known, pair) != known.end())
           pairs.push_back(pair);
       }
@@ -218,6 +218,20 @@ namespace akmon
   }
 
 
+  // Of edges that cross, one of them smooth.
+  ContactPair
+  EdgeSearch::make_line_pair(const ContactNodes::Field &x,
+                             const unsigned int slave,
+                             const unsigned int master,
+                             const EdgeCrossing &crossing) const
+  {
+    auto pair = make_pair(x, slave, master, crossing);
+    pair.kind = ContactPair::Kind::dip;
+    pair.slot = of_smooth_edge;
+    return pair;
+  }
+
+
   ContactPair
   EdgeSearch::make_dip(const ContactNodes::Field &x, const Dip &dip, const double s) const
   {
@@ -232,7 +246,7 @@ namespace akmon
 
     ContactPair pair;
     pair.interface = interface;
-    pair.of_edges  = true;
+    pair.kind      = ContactPair::Kind::dip;
     pair.slave     = dip.of_master ? face.local : edge.first;
     pair.slave_id  = dip.of_master ? across[0] : edge.ids[0];
     pair.others    = dip.of_master ?
@@ -364,8 +378,7 @@ namespace akmon
                          (point_on(x, a, crossing.s) - point_on(x, b, crossing.t));
         if (crossing.gap < -inside * size || gap >= crossing.gap - tolerance)
           continue;
-        auto pair = make_pair(x, slave, master, crossing);
-        pair.slot = of_smooth_edge;
+        auto pair = make_line_pair(x, slave, master, crossing);
         if (find(pairs, pair) != pairs.end())
           continue;
         pair.curvature = gap - pair.gap - pair.normal * pair.relative(increments);

@@ -210,7 +210,7 @@ namespace akmon
     const double s = crossing.s, t = crossing.t;
     ContactPair pair;
     pair.interface = interface;
-    pair.of_edges  = true;
+    pair.kind      = ContactPair::Kind::edges;
     pair.slave     = a.first;
     pair.slave_id  = a.ids[0];
     pair.others    = {{a.ids[1], b.ids[0], b.ids[1]}};

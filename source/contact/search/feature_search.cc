@@ -37,13 +37,11 @@ namespace akmon
   FeatureSearch::FeatureSearch(const Discretization &discretization,
                                const RigidBody &body,
                                const std::vector<BoundaryFace> &faces,
-                               const unsigned int interface,
-                               const unsigned int first_feature)
+                               const unsigned int interface)
     : discretization(discretization)
     , body(body)
     , surface_faces(faces)
     , interface(interface)
-    , first_feature(first_feature)
     , features(body.parameters().shape->sharp_features(body.parameters().edge_angle))
   {
     if (n_features() == 0)
