@@ -102,9 +102,7 @@ namespace akmon
       if (pair.has_slave_node() ? owned.is_element(first_dof) : first_rank)
         pairs.push_back(pair);
     });
-    std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-      return a.key() < b.key();
-    });
+    std::sort(pairs.begin(), pairs.end(), by_key);
     bonds->restore(checkpoint);
     forget_shortcuts();
   }

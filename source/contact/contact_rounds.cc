@@ -59,9 +59,7 @@ namespace akmon
         if (!joining.empty())
           {
             pairs.insert(pairs.end(), joining.begin(), joining.end());
-            std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-              return a.key() < b.key();
-            });
+            std::sort(pairs.begin(), pairs.end(), by_key);
           }
         set_target_gaps(state);
         if (excess == touch_anew)

@@ -23,7 +23,7 @@ namespace pair_keys_test
 
   TEST(PairKeys, KindsAreToldApart)
   {
-    std::set<decltype(ContactPair().key())> keys;
+    std::set<ContactPair::Key> keys;
     for (const auto kind :
          {Kind::node_to_face, Kind::rigid_touch, Kind::rigid_feature, Kind::edges})
       for (const bool reversed : {false, true})

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
@@ -104,11 +105,18 @@ namespace akmon
       return normal_force * normal + tangential_force;
     }
 
+    /// Interface, group, slave, slot, others.
+    using Key = std::tuple<unsigned int,
+                           unsigned int,
+                           ContactNodes::Id,
+                           unsigned int,
+                           std::array<ContactNodes::Id, 3>>;
+
     /// What a pair is known by from step to step. Lists of pairs are sorted by it.
-    auto
+    Key
     key() const
     {
-      return std::make_tuple(interface, group(), slave_id, slot, others);
+      return {interface, group(), slave_id, slot, others};
     }
 
     /// Where it stands among the pairs of its interface: slaves of both sides, then edges.
@@ -234,6 +242,27 @@ namespace akmon
       return v - (normal * v) * normal;
     }
   };
+
+
+  /// The order of lists of pairs.
+  inline constexpr auto by_key = [](const ContactPair &a, const ContactPair &b) {
+    return a.key() < b.key();
+  };
+
+
+  /// The pair with a key in a list sorted by them; its end if there is none.
+  template <typename Pairs>
+  auto
+  find_pair(Pairs &pairs, const ContactPair::Key &key)
+  {
+    const auto found = std::lower_bound(pairs.begin(),
+                                        pairs.end(),
+                                        key,
+                                        [](const ContactPair &pair, const ContactPair::Key &key) {
+                                          return pair.key() < key;
+                                        });
+    return found != pairs.end() && found->key() == key ? found : pairs.end();
+  }
 
 
   /**

@@ -166,7 +166,7 @@ namespace akmon
     order.resize(of_all_ranks.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-      return of_all_ranks[a].pair.key() < of_all_ranks[b].pair.key();
+      return by_key(of_all_ranks[a].pair, of_all_ranks[b].pair);
     });
 
     const ContactNodes::Id of_bonds = nodes.first_common_id() + nodes.size() - nodes.first_common();
@@ -207,7 +207,7 @@ namespace akmon
   void
   CoupledSolver::make_island(std::vector<std::unique_ptr<Island>>::iterator &old)
   {
-    const Key key = members.front()->pair->key();
+    const auto key = members.front()->pair->key();
     while (old != old_islands.end() && (!*old || (*old)->key < key))
       ++old;
     const bool is_known = old != old_islands.end() && (*old)->key == key;

@@ -75,21 +75,6 @@ namespace akmon
     }
 
 
-    // The pair with the same key; the end if there is none.
-    template <typename Pairs>
-    auto
-    find(Pairs &pairs, const ContactPair &pair)
-    {
-      const auto found = std::lower_bound(pairs.begin(),
-                                          pairs.end(),
-                                          pair,
-                                          [](const ContactPair &a, const ContactPair &b) {
-                                            return a.key() < b.key();
-                                          });
-      return found != pairs.end() && found->key() == pair.key() ? found : pairs.end();
-    }
-
-
     // The part of the edge at which a pair with a face is.
     double
     part_of(const ContactPair &pair)
@@ -169,9 +154,7 @@ namespace akmon
         }
     if (known.empty())
       return;
-    std::sort(known.begin(), known.end(), [](const ContactPair &a, const ContactPair &b) {
-      return a.key() < b.key();
-    });
+    std::sort(known.begin(), known.end(), by_key);
     for (const auto &[slave, master] : near_lines)
       {
         EdgeCrossing crossing;
@@ -180,7 +163,7 @@ namespace akmon
             past_end(crossing.s) > 0. || past_end(crossing.t) > 0.)
           continue;
         const auto pair = make_line_pair(x, slave, master, crossing);
-        if (find(known, pair) != known.end())
+        if (find_pair(known, pair.key()) != known.end())
           pairs.push_back(pair);
       }
     for (const auto &dip : near_dips)
@@ -189,7 +172,7 @@ namespace akmon
         if (!may_dip(x, dip) || !deepest_place(x, dip, s))
           continue;
         const auto pair = make_dip(x, dip, s);
-        if (pair.gap <= reach && find(known, pair) != known.end())
+        if (pair.gap <= reach && find_pair(known, pair.key()) != known.end())
           pairs.push_back(pair);
       }
   }
@@ -335,10 +318,11 @@ namespace akmon
         if (pair.gap < -inside * pair.size || gap >= pair.gap - tolerance)
           continue;
         bool is_seen = false;
-        for (auto known = find(pairs, pair); known != pairs.end(); known = find(pairs, pair))
+        for (auto known = find_pair(pairs, pair.key()); known != pairs.end();
+             known      = find_pair(pairs, pair.key()))
           {
-            is_seen = is_seen || std::abs(part_of(*known) - s) < around;
-            pair.slot += n_kinds;
+                 is_seen = is_seen || std::abs(part_of(*known) - s) < around;
+                 pair.slot += n_kinds;
           }
         if (is_seen)
           continue;
@@ -379,7 +363,7 @@ namespace akmon
         if (crossing.gap < -inside * size || gap >= crossing.gap - tolerance)
           continue;
         auto pair = make_line_pair(x, slave, master, crossing);
-        if (find(pairs, pair) != pairs.end())
+        if (find_pair(pairs, pair.key()) != pairs.end())
           continue;
         pair.curvature = gap - pair.gap - pair.normal * pair.relative(increments);
         joining.push_back(pair);

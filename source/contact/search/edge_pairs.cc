@@ -254,16 +254,10 @@ namespace akmon
         EdgeCrossing crossing;
         if (!meet(x, next, slaves[slave], masters[master], reach, crossing))
           continue;
-        const auto pair  = make_pair(x, slave, master, crossing);
-        const auto known = std::lower_bound(previous.begin(),
-                                            previous.end(),
-                                            pair,
-                                            [](const ContactPair &a, const ContactPair &b) {
-                                              return a.key() < b.key();
-                                            });
+        const auto pair = make_pair(x, slave, master, crossing);
         // Edges that are past each other and were not a pair before are none: a corner stands on a
         // face, beside an edge that another edge of the corner crosses.
-        const bool is_new = known == previous.end() || known->key() != pair.key();
+        const bool is_new = find_pair(previous, pair.key()) == previous.end();
         if (is_new && (pair.gap < -barely_inside * pair.size || crossing.sine < first_sine))
           continue;
         pairs.push_back(pair);
@@ -271,8 +265,6 @@ namespace akmon
     const std::size_t n_crossings = pairs.size();
     find_dips(x, reach, previous, pairs);
     if (pairs.size() > n_crossings)
-      std::sort(pairs.begin() + first, pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-        return a.key() < b.key();
-      });
+      std::sort(pairs.begin() + first, pairs.end(), by_key);
   }
 } // namespace akmon

@@ -67,9 +67,7 @@ namespace akmon
     find_corner_pairs(view, pairs);
     find_crossings(view, previous, pairs);
     find_bulges(view, previous, pairs);
-    std::sort(pairs.begin() + first, pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-      return a.key() < b.key();
-    });
+    std::sort(pairs.begin() + first, pairs.end(), by_key);
   }
 
 

@@ -190,12 +190,7 @@ namespace akmon
   FeatureSearch::is_behind(const ContactPair &pair, const std::vector<ContactPair> &previous)
   {
     return pair.gap < -barely_inside * pair.size &&
-           !std::binary_search(previous.begin(),
-                               previous.end(),
-                               pair,
-                               [](const ContactPair &a, const ContactPair &b) {
-                                 return a.key() < b.key();
-                               });
+           find_pair(previous, pair.key()) == previous.end();
   }
 
 

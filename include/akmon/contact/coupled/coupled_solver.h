@@ -107,11 +107,9 @@ namespace akmon
     }
 
   private:
-    using Key = decltype(std::declval<const ContactPair &>().key());
-
     struct Island : ContactIsland
     {
-      Key key; ///< of its first pair
+      ContactPair::Key key; ///< of its first pair
       bool of_this_step = false;
       bool is_new       = false; ///< its solution, to the ranks of its pairs
     };
