@@ -257,6 +257,7 @@ namespace akmon
       monitor->write(parameters.time.finished(state.time));
     }
     warn_of_soft_springs();
+    warn_of_driven_bodies();
     show_progress();
   }
 

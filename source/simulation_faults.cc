@@ -121,6 +121,18 @@ namespace akmon
   }
 
 
+  // Once, also if the run has been restarted.
+  void
+  Simulation::warn_of_driven_bodies()
+  {
+    const std::string driven = "driven into";
+    if (!monitor->bodies_are_driven() || screen.has_warned_of(driven))
+      return;
+    if (const std::string bodies = contact.driven_bodies(state); !bodies.empty())
+      screen.warning(level_text() + bodies);
+  }
+
+
   // Where the step is that of the assembled system, cells need no tight bounds but at its
   // estimates.
   double
