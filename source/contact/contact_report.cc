@@ -26,14 +26,6 @@ namespace akmon
     {
       return pair.of_node() ? at_node(state.x, pair.slave) : pair.place;
     }
-
-
-    std::string
-    place_text(const Tensor<1, 3> &place)
-    {
-      return "(" + shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
-             shortest_text(place[2]) + ")";
-    }
   } // namespace
 
 
@@ -137,7 +129,7 @@ namespace akmon
       text = sides_of(*deepest, body_of_node) + ": both move as prescribed at " +
              place_text(place_of(*deepest, state)) +
              ", where no contact force keeps them apart; there they penetrate by " +
-             shortest_text(relative) + " of the cell size";
+             rounded_text(relative) + " of the cell size";
     for (const auto &of_rank : Utilities::MPI::all_gather(discretization.communicator(), text))
       if (!of_rank.empty())
         return of_rank;

@@ -33,7 +33,7 @@ namespace akmon
     constexpr unsigned int unsettled   = 10; // rounds after which edges are followed all the same
     constexpr double touch_anew        = std::numeric_limits<double>::infinity();
 
-    coupled->solve(dx_free);
+    coupled->solve();
     if (searches.empty() && bodies.empty())
       return;
     const bool has_edges = !feature_searches.empty() ||
@@ -63,8 +63,8 @@ namespace akmon
           }
         set_target_gaps(state);
         if (excess == touch_anew)
-          coupled->take_up_anew(pairs, dx_free, friction_of_pairs(state));
-        coupled->solve(dx_free);
+          coupled->take_up_anew(pairs, friction_of_pairs(state));
+        coupled->solve();
       }
   }
 

@@ -44,7 +44,7 @@ namespace akmon
     , interface(interface)
     , features(body.parameters().shape->sharp_features(body.parameters().edge_angle))
   {
-    if (n_features() == 0)
+    if (features.vertices.empty() && features.edges.empty())
       return;
     // The largest face's, which does not depend on the order of a sum.
     double largest = 0.;

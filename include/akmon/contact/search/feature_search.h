@@ -48,12 +48,6 @@ namespace akmon
       return least_radius > 0.;
     }
 
-    unsigned int
-    n_features() const
-    {
-      return features.vertices.size() + features.edges.size();
-    }
-
     /// Distance over which partners are looked for; length. The same on all ranks.
     double
     radius() const
