@@ -63,7 +63,7 @@ namespace akmon
     unsigned int slave;        ///< local number of the (owned) slave node, if it has_slave_node()
     ContactNodes::Id slave_id; ///< of the kind: other kinds may have the same
     std::array<ContactNodes::Id, 3> others{}; ///< of edges: ids of further nodes, for two b, c, d
-    unsigned int slot   = 0;     ///< 0: with the closest face; else with another face of a corner
+    unsigned int slot   = 0;     ///< among the pairs of a slave; of a node 0: the closest face
     bool shares_corner  = false; ///< the slave has pairs with several faces, each for itself
     unsigned int search = 0;     ///< that found it: its number, of the slave and of the face there
     unsigned int row    = 0;

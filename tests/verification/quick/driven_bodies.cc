@@ -71,7 +71,8 @@ namespace driven_bodies
   TEST(DrivenBodies, may_be_a_body_and_an_obstacle)
   {
     auto overrides = bars(true, "coupled");
-    for (const char *const more : {"Contact/Names=",
+    for (const char *const more : {"Contact/interface/Slave=left:x-",
+                                   "Contact/interface/Master=right:x+",
                                    "Obstacles/Names=wall",
                                    "Obstacles/wall/Surfaces=left:x+",
                                    "Obstacles/wall/Point=0.01, 0, 0",
