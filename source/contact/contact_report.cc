@@ -210,7 +210,7 @@ namespace akmon
                        discretization.get_bodies()[discretization.body_of_node[deepest->slave]]
                          .name +
                        "'") +
-                  " starts inside its partner, " + shortest_text(-deepest->gap) + " deep at " +
+                  " starts inside its partner, " + rounded_text(-deepest->gap) + " deep at " +
                   place_text(place_of(*deepest, state)) + "; move the bodies apart";
       }
     for (const auto &of_rank : Utilities::MPI::all_gather(discretization.communicator(), message))

@@ -37,7 +37,7 @@ namespace pair_keys_test
   }
 
 
-  // A free rigid box of a size, from 0 to it in its frame.
+  // A free rigid cube that may hit all before it.
   Obstacle
   box(const unsigned int number, const double size, const Vector &place)
   {
@@ -59,13 +59,13 @@ namespace pair_keys_test
   // another one: its touches have numbers up to that of all pairs of boxes.
   TEST(PairKeys, RiseAmongManyRigidBodies)
   {
-    constexpr unsigned int n = 100;
+    constexpr unsigned int n = 80;
     constexpr double size = 0.2, gap = 1e-4;
 
     std::vector<Obstacle> obstacles;
     for (unsigned int i = 0; i < n; ++i)
       {
-        const Vector far({10. + i, 0., 0.}), on_face({0.5, 0.5, 1. + 0.5 * size + gap});
+        const Vector far({10. + i, 0., 0.}), on_face({0., 0., 0.5 + 0.5 * size + gap});
         const Vector beside = on_face + Vector({size + gap, 0.01, 0.});
         obstacles.push_back(box(i, size, i + 1 == n ? on_face : i + 2 == n ? beside : far));
       }

@@ -294,7 +294,7 @@ namespace akmon
     const std::string inside  = discretization.get_bodies()[overlap->inside].name,
                       outside = discretization.get_bodies()[overlap->outside].name;
     throw InputError("[Bodies] '" + inside + "' and '" + outside + "' overlap at the start: '" +
-                     inside + "' is " + shortest_text(overlap->depth) + " deep inside '" + outside +
+                     inside + "' is " + rounded_text(overlap->depth) + " deep inside '" + outside +
                      "' at " + place_text(overlap->place) + "; move the bodies apart");
   }
 } // namespace akmon
