@@ -257,6 +257,7 @@ namespace akmon
       monitor->write(parameters.time.finished(state.time));
     }
     warn_of_soft_springs();
+    warn_of_driven_bodies();
     show_progress();
   }
 
@@ -281,8 +282,7 @@ namespace akmon
         const auto &cell = discretization.cells[internal_forces.limiting_cell()];
         const auto place = HexahedronCell().at(discretization.corners_of(cell))->center();
         limit = "cell " + std::to_string(cell.id) + " of '" + parameters.bodies[cell.body].name +
-                "' at (" + shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
-                shortest_text(place[2]) + ")";
+                "' at " + place_text(place);
       }
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, limit))
       if (limit.empty())
@@ -305,7 +305,7 @@ namespace akmon
                    {"ranks", std::to_string(Utilities::MPI::n_mpi_processes(communicator))},
                    {"SIMD lanes", std::to_string(n_lanes)},
                    {"time step",
-                    shortest_text(state.dt_next) + ", " + percent_text(state.dt_next / critical) +
+                    rounded_text(state.dt_next) + ", " + percent_text(state.dt_next / critical) +
                       " of critical" + (parameters.time.automatic() ? " (automatic)" : " (fixed)")},
                    {"limited by", limit},
                    {"end", shortest_text(parameters.time.end)},
@@ -314,7 +314,7 @@ namespace akmon
       for (const auto &repair : obstacle.repairs)
         screen.warning(repair);
     if (state.dt_next > critical)
-      screen.warning("the time step is above the critical step " + shortest_text(critical));
+      screen.warning("the time step is above the critical step " + rounded_text(critical));
     if (added_mass > much_added_mass && first_step == 0) // a checkpoint keeps what was warned of
       screen.warning("mass scaling adds " + percent_text(added_mass) +
                      " to the mass of the bodies; look at what it does to their motion");
@@ -359,7 +359,7 @@ namespace akmon
                      shortest_text(state.step) +
                      " steps ended above the solver's tolerance, the worst with friction or gaps "
                      "wrong by " +
-                     shortest_text(solver.residual) + " of the cell size");
+                     rounded_text(solver.residual) + " of the cell size");
     Summary summary;
     summary.set("title", parameters.title);
     summary.set("completed", status == ExitStatus::done);

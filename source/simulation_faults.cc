@@ -14,17 +14,6 @@ namespace akmon
 {
   using namespace dealii;
 
-  namespace
-  {
-    std::string
-    place_text(const Point<3> &place)
-    {
-      return "(" + shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
-             shortest_text(place[2]) + ")";
-    }
-  } // namespace
-
-
   std::string
   Simulation::level_text() const
   {
@@ -121,6 +110,18 @@ namespace akmon
   }
 
 
+  // Once, also if the run has been restarted.
+  void
+  Simulation::warn_of_driven_bodies()
+  {
+    const std::string driven = "driven into";
+    if (!monitor->bodies_are_driven() || screen.has_warned_of(driven))
+      return;
+    if (const std::string bodies = contact.driven_bodies(state); !bodies.empty())
+      screen.warning(level_text() + bodies);
+  }
+
+
   // Where the step is that of the assembled system, cells need no tight bounds but at its
   // estimates.
   double
@@ -191,11 +192,11 @@ namespace akmon
       {
         const auto &cell = discretization.cells[internal_forces.limiting_cell_now()];
         message          = "the critical step has fallen from " +
-                  shortest_text(2. / std::sqrt(initial_frequency_squared)) + " to " +
-                  shortest_text(2. / std::sqrt(frequency_squared)) +
+                  rounded_text(2. / std::sqrt(initial_frequency_squared)) + " to " +
+                  rounded_text(2. / std::sqrt(frequency_squared)) +
                   ", below [Time] Smallest step, by cell " + std::to_string(cell.id) +
                   " of body '" + parameters.bodies[cell.body].name + "', near " +
-                  place_text(Point<3>(at_node(state.x, cell.nodes[0])));
+                  place_text(at_node(state.x, cell.nodes[0]));
       }
     for (const auto &of_rank : Utilities::MPI::all_gather(communicator, message))
       if (!of_rank.empty())

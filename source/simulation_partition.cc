@@ -53,7 +53,7 @@ namespace akmon
 
     std::map<unsigned int, unsigned int> pairs_of;
     for (const auto &pair : contact.get_pairs())
-      if (pair.slave != numbers::invalid_unsigned_int)
+      if (pair.has_slave_node())
         ++pairs_of[pair.slave];
     double n_pairs = 0.;
     for (const auto &[slave, n] : pairs_of)

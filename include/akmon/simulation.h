@@ -136,6 +136,8 @@ namespace akmon
     step_with_penalty(const double frequency_squared);
     void
     warn_of_soft_springs();
+    void
+    warn_of_driven_bodies();
     std::string
     level_text() const;
 

@@ -27,7 +27,7 @@ namespace akmon
   double
   Contact::release(const ContactPair &pair, const NodalState &state) const
   {
-    if (pair.slave == numbers::invalid_unsigned_int) // rigid bodies know no wave speed
+    if (!pair.has_slave_node()) // rigid bodies know no wave speed
       return solver.release_speed * pair.size;
     return solver.release_speed * state.dt_next *
            wave_speeds[discretization.body_of_node[pair.slave]];
@@ -134,7 +134,7 @@ namespace akmon
 
     std::vector<ContactPair *> candidates;
     for (auto &pair : pairs)
-      if (pair.interface >= contacts.size() && pair.slave != numbers::invalid_unsigned_int &&
+      if (pair.kind == ContactPair::Kind::node_to_shape &&
           !bodies[pair.interface - contacts.size()].is_free())
         candidates.push_back(&pair);
     if (Utilities::MPI::max(candidates.size(), discretization.communicator()) == 0)
@@ -253,11 +253,12 @@ namespace akmon
           for (unsigned int k = 0; k < pair.n_nodes; ++k)
             if (pair.nodes[k] < nodes.first_common())
               {
-                auto &contribution      = contributions.emplace_back();
-                contribution.node       = nodes.id(pair.nodes[k]);
-                contribution.interface  = pair.interface;
-                contribution.slave      = pair.slave_id;
-                contribution.normal     = pair.at_node(k, normal, turn);
+                auto &contribution            = contributions.emplace_back();
+                contribution.node             = nodes.id(pair.nodes[k]);
+                contribution.interface        = pair.interface;
+                contribution.slave            = pair.slave_id;
+                contribution.of_rigid_feature = pair.kind == ContactPair::Kind::rigid_feature;
+                contribution.normal           = pair.at_node(k, normal, turn);
                 contribution.tangential = pair.at_node(k, pair.tangential_force, tangential_turn);
                 contribution.sticks     = pair.sticks;
               }

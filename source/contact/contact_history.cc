@@ -14,9 +14,9 @@ namespace akmon
 
   namespace
   {
-    // A pair's row in a checkpoint. Slaves go by their global node numbers, which are the same on
-    // any number of ranks; features of rigid bodies are numbered behind all nodes.
-    constexpr std::size_t row_width = 14, of_nodes_only = 10; // before there were pairs of edges
+    // A pair's row in a checkpoint. Slave nodes go by their global numbers, which are the same on
+    // any number of ranks.
+    constexpr std::size_t row_width = 14;
 
 
     void
@@ -31,14 +31,14 @@ namespace akmon
       row[7]  = pair.sticks ? 1. : 0.;
       row[8]  = pair.slot;
       row[9]  = pair.curvature;
-      row[10] = pair.of_edges ? 1. : 0.;
+      row[10] = static_cast<double>(pair.kind);
       for (unsigned int k = 0; k < 3; ++k)
         row[11 + k] = pair.others[k];
     }
 
 
     ContactPair
-    from_row(const double *const row, const std::size_t width)
+    from_row(const double *const row)
     {
       ContactPair pair{};
       pair.interface    = row[0];
@@ -49,9 +49,7 @@ namespace akmon
       pair.sticks    = row[7] != 0.;
       pair.slot      = row[8];
       pair.curvature = row[9];
-      if (width == of_nodes_only)
-        return pair;
-      pair.of_edges = row[10] != 0.;
+      pair.kind      = static_cast<ContactPair::Kind>(row[10]);
       for (unsigned int k = 0; k < 3; ++k)
         pair.others[k] = ContactNodes::Id(row[11 + k]);
       return pair;
@@ -65,7 +63,7 @@ namespace akmon
     // The others start from nothing. Edges remain a pair where they would not become one.
     std::vector<const ContactPair *> carrying;
     for (const auto &pair : pairs)
-      if (pair.normal_force != 0. || pair.curvature != 0. || pair.of_edges || pair.of_features)
+      if (pair.normal_force != 0. || pair.curvature != 0. || !pair.of_node())
         carrying.push_back(&pair);
     checkpoint.table("contact_pairs",
                      carrying.size(),
@@ -73,9 +71,8 @@ namespace akmon
                      [&](const std::size_t i, double *const row) {
                        const auto &pair = *carrying[i];
                        to_row(pair,
-                              pair.slave == numbers::invalid_unsigned_int ?
-                                double(discretization.n_global_nodes) + pair.slave_id :
-                                discretization.global_node(pair.slave),
+                              pair.has_slave_node() ? discretization.global_node(pair.slave) :
+                                                      pair.slave_id,
                               row);
                      });
     bonds->save(checkpoint);
@@ -85,35 +82,27 @@ namespace akmon
   void
   Contact::restore(const CheckpointReader &checkpoint)
   {
-    const auto &owned          = discretization.partitioner->locally_owned_range();
-    const auto [n_rows, width] = checkpoint.size("contact_pairs");
-    const bool first_rank = Utilities::MPI::this_mpi_process(discretization.communicator()) == 0;
+    const auto &owned        = discretization.partitioner->locally_owned_range();
+    const std::size_t n_rows = checkpoint.size("contact_pairs").first;
+    const bool first_rank    = Utilities::MPI::this_mpi_process(discretization.communicator()) == 0;
     pairs.clear();
-    checkpoint.rows("contact_pairs",
-                    0,
-                    n_rows,
-                    [&, width = width](const std::size_t, const double *const row) {
-                      if (row[2] >= discretization.n_global_nodes)
-                        {
-                          if (!first_rank)
-                            return;
-                          pairs.push_back(from_row(row, width));
-                          pairs.back().slave    = numbers::invalid_unsigned_int;
-                          pairs.back().slave_id = ContactNodes::Id(row[2] -
-                                                                   discretization.n_global_nodes);
-                          return;
-                        }
-                      const types::global_dof_index first_dof = 3 * row[2];
-                      if (!owned.is_element(first_dof))
-                        return;
-                      pairs.push_back(from_row(row, width));
-                      pairs.back().slave = discretization.partitioner->global_to_local(first_dof) /
-                                           3;
-                      pairs.back().slave_id = nodes.id_of_local(pairs.back().slave);
-                    });
-    std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-      return a.key() < b.key();
+    checkpoint.rows("contact_pairs", 0, n_rows, [&](const std::size_t, const double *const row) {
+      ContactPair pair                        = from_row(row);
+      const types::global_dof_index first_dof = 3 * row[2];
+      if (!pair.has_slave_node())
+        {
+          pair.slave    = numbers::invalid_unsigned_int;
+          pair.slave_id = ContactNodes::Id(row[2]);
+        }
+      else if (owned.is_element(first_dof))
+        {
+          pair.slave    = discretization.partitioner->global_to_local(first_dof) / 3;
+          pair.slave_id = nodes.id_of_local(pair.slave);
+        }
+      if (pair.has_slave_node() ? owned.is_element(first_dof) : first_rank)
+        pairs.push_back(pair);
     });
+    std::sort(pairs.begin(), pairs.end(), by_key);
     bonds->restore(checkpoint);
     forget_shortcuts();
   }

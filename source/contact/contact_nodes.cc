@@ -145,9 +145,10 @@ namespace akmon
       by_node[ends[number(contribution.node)]++] = contribution;
     contributions.swap(by_node);
     // A node has few, which are nearly sorted. Pairs of the same slave are of one rank and stay in
-    // their order.
+    // their order: std::stable_sort would ask for memory in every step.
     const auto comes_before = [](const Contribution &a, const Contribution &b) {
-      return std::tie(a.interface, a.slave) < std::tie(b.interface, b.slave);
+      return std::tie(a.interface, a.of_rigid_feature, a.slave) <
+             std::tie(b.interface, b.of_rigid_feature, b.slave);
     };
     for (unsigned int node = 0; node < n_owned(); ++node)
       {

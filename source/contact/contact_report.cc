@@ -16,12 +16,15 @@ namespace akmon
 
   namespace
   {
+    // Of the cell size: what rounding of coordinates in a mesh file may do.
+    constexpr double rounding_of_places = 1e-6;
+
+
     // Where the force acts: at the slave node, if it is a node's.
     Tensor<1, 3>
     place_of(const ContactPair &pair, const NodalState &state)
     {
-      const bool of_node = pair.slave != numbers::invalid_unsigned_int && !pair.of_edges;
-      return of_node ? at_node(state.x, pair.slave) : pair.place;
+      return pair.of_node() ? at_node(state.x, pair.slave) : pair.place;
     }
   } // namespace
 
@@ -36,7 +39,7 @@ namespace akmon
     report.interfaces.resize(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
       {
-        const bool rigid                   = pair.slave == numbers::invalid_unsigned_int;
+        const bool rigid                   = !pair.has_slave_node();
         auto &interface                    = report.interfaces[pair.interface];
         const double depth                 = pair.entered ? 0. : pair.depth;
         const double relative              = depth / pair.size;
@@ -49,6 +52,8 @@ namespace akmon
             report.place                    = Point<3>(place_of(pair, state));
             report.deepest                  = pair.slave;
           }
+        if (relative > report.driven_penetration && is_driven(pair))
+          report.driven_penetration = relative;
         if (!(pair.normal_force > 0.))
           continue;
         ++report.active_pairs;
@@ -74,15 +79,74 @@ namespace akmon
   }
 
 
+  // Whether a pair is inside because its bodies move as prescribed.
+  bool
+  Contact::is_driven(const ContactPair &pair) const
+  {
+    return pair.gap < -rounding_of_places * pair.size && mobility.is_held_along(pair, pair.normal);
+  }
+
+
+  // The bodies of a pair: those of its first and its last node, or an obstacle.
+  std::string
+  Contact::sides_of(const ContactPair &pair, const ContactNodes::Field &body_of_node) const
+  {
+    std::string first, last;
+    for (unsigned int k = 0; k < pair.n_points(); ++k)
+      if (pair.nodes[k] < nodes.first_common())
+        {
+          const auto body = static_cast<unsigned int>(body_of_node[pair.nodes[k]][0]);
+          last            = "'" + discretization.get_bodies()[body].name + "'";
+          first           = first.empty() ? last : first;
+        }
+    if (pair.interface >= contacts.size())
+      return "body " + first + " and obstacle '" + law_of(pair).name +
+             "' are driven into each other";
+    return first == last ? "body " + first + " is driven into itself" :
+                           "bodies " + first + " and " + last + " are driven into each other";
+  }
+
+
+  std::string
+  Contact::driven_bodies(const NodalState &state) const
+  {
+    NodalVector bodies_of_nodes = discretization.make_vector();
+    for (unsigned int node = 0; node < discretization.n_owned_nodes; ++node)
+      bodies_of_nodes.local_element(3 * node) = discretization.body_of_node[node];
+    ContactNodes::Field body_of_node;
+    nodes.gather(bodies_of_nodes, body_of_node);
+
+    const ContactPair *deepest = nullptr;
+    double relative            = 0.;
+    for (const auto &pair : pairs)
+      if (-pair.gap > relative * pair.size && is_driven(pair))
+        {
+          deepest  = &pair;
+          relative = -pair.gap / pair.size;
+        }
+    const double largest = Utilities::MPI::max(relative, discretization.communicator());
+    std::string text;
+    if (deepest && relative == largest)
+      text = sides_of(*deepest, body_of_node) + ": both move as prescribed at " +
+             place_text(place_of(*deepest, state)) +
+             ", where no contact force keeps them apart; there they penetrate by " +
+             rounded_text(relative) + " of the cell size";
+    for (const auto &of_rank : Utilities::MPI::all_gather(discretization.communicator(), text))
+      if (!of_rank.empty())
+        return of_rank;
+    return "";
+  }
+
+
   std::vector<Contact::Patch>
   Contact::patches(const NodalState &state) const
   {
     std::vector<Patch> result(contacts.size() + bodies.size());
     for (const auto &pair : pairs)
-      if (pair.normal_force > 0. && !pair.of_edges && pair.slave != numbers::invalid_unsigned_int)
+      if (pair.normal_force > 0. && pair.of_node())
         {
           const bool both_sides = solver.type != ContactSolver::Type::decoupled &&
-                                  pair.interface < contacts.size() &&
+                                  pair.kind == ContactPair::Kind::node_to_face &&
                                   contacts[pair.interface].symmetric;
           result[pair.interface].area += (both_sides ? 0.5 : 1.) *
                                          areas.facing(state.x, pair.slave, pair.normal);
@@ -128,19 +192,16 @@ namespace akmon
   void
   Contact::refuse_initial_overlap(const NodalState &state) const
   {
-    // What rounding of coordinates in a mesh file may do is tolerated, and released slowly.
-    constexpr double tolerated = 1e-6;
-
+    // What rounding of places may do is tolerated, and released slowly.
     const ContactPair *deepest = nullptr;
     for (const auto &pair : pairs)
-      if (pair.gap < -tolerated * pair.size && (!deepest || pair.gap < deepest->gap) &&
+      if (pair.gap < -rounding_of_places * pair.size && (!deepest || pair.gap < deepest->gap) &&
           !bonds->hold(pair))
         deepest = &pair;
     std::string message;
     if (deepest)
       {
-        const bool rigid = deepest->slave == numbers::invalid_unsigned_int;
-        const auto place = place_of(*deepest, state);
+        const bool rigid = !deepest->has_slave_node();
         message          = "[" +
                   std::string(deepest->interface < contacts.size() ? "Contact/" : "Obstacles/") +
                   law_of(*deepest).name + "] " +
@@ -150,9 +211,8 @@ namespace akmon
                        discretization.get_bodies()[discretization.body_of_node[deepest->slave]]
                          .name +
                        "'") +
-                  " starts inside its partner, " + shortest_text(-deepest->gap) + " deep at (" +
-                  shortest_text(place[0]) + ", " + shortest_text(place[1]) + ", " +
-                  shortest_text(place[2]) + "); move the bodies apart";
+                  " starts inside its partner, " + rounded_text(-deepest->gap) + " deep at " +
+                  place_text(place_of(*deepest, state)) + "; move the bodies apart";
       }
     for (const auto &of_rank : Utilities::MPI::all_gather(discretization.communicator(), message))
       if (!of_rank.empty())

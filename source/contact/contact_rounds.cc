@@ -34,7 +34,7 @@ namespace akmon
     constexpr unsigned int until_refit = 6;
     constexpr double touch_anew        = std::numeric_limits<double>::infinity();
 
-    coupled->solve(dx_free);
+    coupled->solve();
     if (searches.empty() && bodies.empty())
       return;
     const bool has_edges = !feature_searches.empty() ||
@@ -67,14 +67,12 @@ namespace akmon
             for (auto &pair : joining)
               pair.depth = std::max(0., -pair.gap);
             pairs.insert(pairs.end(), joining.begin(), joining.end());
-            std::sort(pairs.begin(), pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-              return a.key() < b.key();
-            });
+            std::sort(pairs.begin(), pairs.end(), by_key);
           }
         set_target_gaps(state);
         if (excess == touch_anew)
-          coupled->take_up_anew(pairs, dx_free, friction_of_pairs(state));
-        coupled->solve(dx_free);
+          coupled->take_up_anew(pairs, friction_of_pairs(state));
+        coupled->solve();
       }
   }
 
@@ -116,7 +114,7 @@ namespace akmon
       return {};
     std::vector<std::vector<ContactPair *>> of_touch(rigid_touches.size());
     for (auto &pair : pairs)
-      if (pair.is_touch())
+      if (pair.kind == ContactPair::Kind::rigid_touch)
         of_touch[pair.search].push_back(&pair);
     std::vector<ContactPair> joining;
     if (Utilities::MPI::this_mpi_process(discretization.communicator()) == 0)
@@ -187,26 +185,27 @@ namespace akmon
   bool
   Contact::reached_gap(ContactPair &pair, const std::vector<Pose> &poses, double &gap) const
   {
-    if (pair.of_edges)
-      return edge_searches[pair.search].gap_at(x_reached, pair, gap);
-    if (pair.interface < contacts.size())
-      return pair.n_nodes > 1 && searches[pair.search].gap_at(x_reached, pair, gap);
-    if (pair.of_features)
+    const unsigned int body = pair.interface - contacts.size(); // of an obstacle's pair
+    switch (pair.kind)
       {
-        const unsigned int body = pair.interface - contacts.size();
-        return feature_searches[body].gap_at(x_reached, poses[body], pair, gap);
+        case ContactPair::Kind::node_to_face:
+          return pair.n_nodes > 1 && searches[pair.search].gap_at(x_reached, pair, gap);
+        case ContactPair::Kind::node_to_shape:
+          gap = obstacle_gap(*bodies[body].parameters().shape,
+                             poses[body],
+                             pair,
+                             x_reached[pair.nodes[0]]);
+          return true;
+        case ContactPair::Kind::rigid_touch:
+          gap = pair.reached_gap; // of follow_touches()
+          return true;
+        case ContactPair::Kind::rigid_feature:
+          return feature_searches[body].gap_at(x_reached, poses[body], pair, gap);
+        case ContactPair::Kind::edges:
+        case ContactPair::Kind::dip:
+          return edge_searches[pair.search].gap_at(x_reached, pair, gap);
       }
-    if (pair.is_touch())
-      {
-        gap = pair.reached_gap; // of follow_touches()
-        return true;
-      }
-    const unsigned int body = pair.interface - contacts.size();
-    gap                     = obstacle_gap(*bodies[body].parameters().shape,
-                       poses[body],
-                       pair,
-                       x_reached[pair.nodes[0]]);
-    return true;
+    return false;
   }
 
 
@@ -244,23 +243,29 @@ namespace akmon
     constexpr double of_faces = 1e-7, of_edges = 1e-10, of_dips = 5e-10, of_rigid = 1e-12,
                      of_kinks = 1e-10, of_touches = 1e-11;
 
-    if (pair.is_touch())
-      return of_touches;
-    if (pair.of_edges)
-      return late && pair.is_dip() ? of_dips : of_edges;
-    if (pair.interface < contacts.size())
-      return of_faces;
-    return std::max(2. * coupled->residual(),
-                    pair.of_features ? of_features * solver.tolerance :
-                    late             ? of_kinks :
-                                       of_rigid);
+    switch (pair.kind)
+      {
+        case ContactPair::Kind::node_to_face:
+          return of_faces;
+        case ContactPair::Kind::node_to_shape:
+          return std::max(2. * coupled->residual(), late ? of_kinks : of_rigid);
+        case ContactPair::Kind::rigid_touch:
+          return of_touches;
+        case ContactPair::Kind::rigid_feature:
+          return std::max(2. * coupled->residual(), of_features * solver.tolerance);
+        case ContactPair::Kind::edges:
+          return of_edges;
+        case ContactPair::Kind::dip:
+          return late ? of_dips : of_edges;
+      }
+    return of_faces;
   }
 
 
   void
   Contact::prefetch(const ContactPair &pair) const
   {
-    if (!pair.of_edges && pair.interface < contacts.size())
+    if (pair.kind == ContactPair::Kind::node_to_face)
       searches[pair.search].prefetch(pair);
   }
 
@@ -298,10 +303,11 @@ namespace akmon
           continue;
         const auto motion = pair->relative(dx_reached);
         // Whatever is beyond is another partner. Bulges may be highest far from where they were.
+        const bool may_be_far = pair->kind == ContactPair::Kind::rigid_feature ||
+                                pair->kind == ContactPair::Kind::rigid_touch ||
+                                pair->kind == ContactPair::Kind::dip;
         const double bound   = std::max(0.5 * motion.norm(),
-                                      pair->of_features || pair->is_touch() || pair->is_dip() ?
-                                          least_of_features * pair->size :
-                                          0.);
+                                      may_be_far ? least_of_features * pair->size : 0.);
         const double linear  = pair->gap + pair->normal * motion;
         const double allowed = least_gap(*pair, state);
         double reached;
@@ -311,7 +317,7 @@ namespace akmon
           continue;
         const double curvature = std::clamp(reached - linear, -bound, bound);
         const bool late        = round > many_rounds;
-        const bool only_closes = (pair->of_edges || pair->interface >= contacts.size()) && late;
+        const bool only_closes = pair->kind != ContactPair::Kind::node_to_face && late;
         const double change    = curvature - pair->curvature;
         const double excess    = (only_closes ? std::max(0., -change) : std::abs(change)) /
                               (pair->size * gap_tolerance(*pair, late));
@@ -322,7 +328,7 @@ namespace akmon
               unsettled.push_back(pair);
           }
         pair->settled = excess <= 1.;
-        if (!pair->settled && only_closes && !pair->of_features)
+        if (!pair->settled && only_closes && pair->kind != ContactPair::Kind::rigid_feature)
           pair->curvature = curvature;
         else if (!pair->settled)
           count_on(*pair, curvature);

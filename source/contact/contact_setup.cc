@@ -87,17 +87,12 @@ namespace akmon
                           const unsigned int first_interface)
     {
       std::vector<FeatureSearch> searches;
-      unsigned int n_features = 0;
       if (solver.type != ContactSolver::Type::decoupled)
         for (unsigned int i = 0; i < bodies.size(); ++i)
-          {
-            searches.emplace_back(discretization,
-                                  bodies[i],
-                                  obstacle_searches[i].surface_faces(),
-                                  first_interface + i,
-                                  n_features);
-            n_features += searches.back().n_features();
-          }
+          searches.emplace_back(discretization,
+                                bodies[i],
+                                obstacle_searches[i].surface_faces(),
+                                first_interface + i);
       return searches;
     }
 

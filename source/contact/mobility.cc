@@ -51,6 +51,26 @@ namespace akmon
   }
 
 
+  // Projectors leave rounding along what they hold.
+  bool
+  Mobility::is_held_along(const ContactPair &pair, const Tensor<1, 3> &direction) const
+  {
+    constexpr double rounding = 1e-12;
+
+    double moved = 0., if_free = 0.;
+    for (unsigned int k = 0; k < pair.n_nodes; ++k)
+      {
+        const unsigned int node = pair.nodes[k];
+        const auto force        = pair.at_node(k, direction);
+        if (is_free(node) && force.norm_square() > 0.)
+          return false;
+        moved += force * times(force, node);
+        if_free += force.norm_square() * inverse_mass(node);
+      }
+    return moved <= rounding * if_free;
+  }
+
+
   // A node alone may be guided along the contact plane; what is held moves with nobody.
   bool
   Mobility::moves_alike(const ContactPair &pair) const

@@ -23,8 +23,7 @@ namespace akmon
     const auto key = [](const Share &share) {
       return std::make_tuple(share.node,
                              share.interface,
-                             share.of_edges,
-                             share.reversed,
+                             share.group,
                              share.slave,
                              share.slot,
                              share.others);

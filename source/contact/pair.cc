@@ -1,5 +1,6 @@
 #include <akmon/contact/lever.h>
 #include <akmon/contact/pair.h>
+#include <akmon/contact/search/face_geometry.h>
 
 namespace akmon
 {
@@ -11,7 +12,7 @@ namespace akmon
             const Tensor<1, 3> &offset,
             ContactPair &pair)
   {
-    const auto centre = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+    const auto centre = middle_of(corners);
     for (unsigned int k = 0; k < 4; ++k)
       pair.arms[first + k] = corners[k] - centre;
     pair.lever   = lever_of(offset,

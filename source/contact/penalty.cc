@@ -137,11 +137,7 @@ namespace akmon
     const double of_rank    = limit.frequency_squared;
     limit.frequency_squared = Utilities::MPI::max(of_rank, discretization.communicator());
     if (stiffest && of_rank == limit.frequency_squared)
-      {
-        const auto place = x[stiffest->nodes[0]];
-        limit.where = "'" + law_of(*stiffest).name + "' near (" + shortest_text(place[0]) + ", " +
-                      shortest_text(place[1]) + ", " + shortest_text(place[2]) + ")";
-      }
+      limit.where = "'" + law_of(*stiffest).name + "' near " + place_text(x[stiffest->nodes[0]]);
     return limit;
   }
 } // namespace akmon

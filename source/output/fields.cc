@@ -253,10 +253,10 @@ namespace akmon
       fields.scalars.local_element(3 * node + 1) = std::numeric_limits<double>::quiet_NaN();
     for (const auto &pair : contact.get_pairs())
       {
-        if (pair.slave == numbers::invalid_unsigned_int) // of rigid bodies
+        if (!pair.has_slave_node())
           continue;
         float &gap = fields.scalars.local_element(3 * pair.slave + 1);
-        if (!pair.of_edges && !(gap < pair.gap))
+        if (pair.of_node() && !(gap < pair.gap))
           gap = pair.gap;
         if (pair.normal_force > 0.) // a slave's own pair counts before those it is a master of
           fields.scalars.local_element(3 * pair.slave + 2) = pair.sticks ? 2. : 1.;

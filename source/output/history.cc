@@ -2,9 +2,7 @@
 #include <akmon/output/history.h>
 #include <akmon/parameters.h>
 
-#include <array>
 #include <cerrno>
-#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -23,15 +21,6 @@ namespace akmon
       line += entry;
     }
   } // namespace
-
-
-  std::string
-  shortest_text(const double number)
-  {
-    std::array<char, 32> text; // the longest, "-2.2250738585072014e-308", takes 24
-    const auto end = std::to_chars(text.data(), text.data() + text.size(), number).ptr;
-    return std::string(text.data(), end);
-  }
 
 
   History::History(const std::string &path, const MPI_Comm comm)

@@ -271,10 +271,12 @@ namespace akmon
       row.insert(row.end(), values.begin(), values.end());
     };
     append(momenta());
-    append({Utilities::MPI::max(penetration, communicator),
-            Utilities::MPI::max(penetration_relative, communicator)});
-    worst.penetration          = std::max(worst.penetration, row[row.size() - 2]);
-    worst.penetration_relative = std::max(worst.penetration_relative, row[row.size() - 1]);
+    std::vector<double> maxima = {penetration, penetration_relative, report.driven_penetration};
+    Utilities::MPI::max(maxima, communicator, maxima);
+    append({maxima[0], maxima[1]});
+    worst.penetration          = std::max(worst.penetration, maxima[0]);
+    worst.penetration_relative = std::max(worst.penetration_relative, maxima[1]);
+    is_driven                  = maxima[2] > 0.;
     penetration = penetration_relative = 0.;
 
     std::vector<double> sums = {double(report.active_pairs), double(report.sticking_pairs)};

@@ -19,10 +19,8 @@ namespace akmon
     const auto sizes       = Utilities::MPI::all_gather(watched.discretization.communicator(),
                                                   of_rank.size);
     const auto root        = std::max_element(sizes.begin(), sizes.end()) - sizes.begin();
-    const auto &p          = of_rank.place;
     const std::string text = "body '" + watched.discretization.get_bodies()[of_rank.body].name +
-                             "', near (" + shortest_text(p[0]) + ", " + shortest_text(p[1]) + ", " +
-                             shortest_text(p[2]) + ")";
+                             "', near " + place_text(of_rank.place);
     return Utilities::MPI::broadcast(watched.discretization.communicator(), text, root);
   }
 
@@ -49,7 +47,7 @@ namespace akmon
         parameters.contact_solver.type != ContactSolver::Type::penalty)
       throw RunError(ExitStatus::lost_contact,
                      level() + "contact is lost: a penetration of " +
-                       shortest_text(worst.penetration_relative) +
+                       rounded_text(worst.penetration_relative) +
                        " of the cell size is beyond [Output] Penetration bound = " +
                        shortest_text(parameters.output.penetration_bound) + "; deepest is " +
                        describe(deepest));
@@ -88,13 +86,13 @@ namespace akmon
       throw RunError(ExitStatus::not_a_number, level() + "the energy is not a number" + where);
     if (energy_fault())
       throw RunError(ExitStatus::energy_error,
-                     level() + "energy error " + shortest_text(worst.energy_error) +
+                     level() + "energy error " + rounded_text(worst.energy_error) +
                        " is beyond the bound " +
                        shortest_text(parameters.output.energy_error_bound) +
                        " ([Output] Energy error bound)" + where);
     throw RunError(ExitStatus::energy_error,
-                   level() + "hourglass energy " + shortest_text(balance.hourglass) +
-                     " is beyond " + shortest_text(parameters.output.hourglass_energy_bound) +
+                   level() + "hourglass energy " + rounded_text(balance.hourglass) + " is beyond " +
+                     shortest_text(parameters.output.hourglass_energy_bound) +
                      " of the largest energy so far ([Output] Hourglass energy bound); refine the "
                      "mesh or integrate fully");
   }

@@ -207,6 +207,15 @@ namespace akmon
   }
 
 
+  bool
+  Screen::has_warned_of(const std::string &text) const
+  {
+    return std::any_of(given_warnings.begin(), given_warnings.end(), [&](const auto &warning) {
+      return warning.find(text) != std::string::npos;
+    });
+  }
+
+
   const std::vector<std::string> &
   Screen::warnings() const
   {

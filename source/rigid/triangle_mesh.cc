@@ -26,14 +26,6 @@ namespace akmon
 
 
     std::string
-    place(const Tensor<1, 3> &x)
-    {
-      return "(" + shortest_text(x[0]) + ", " + shortest_text(x[1]) + ", " + shortest_text(x[2]) +
-             ")";
-    }
-
-
-    std::string
     number_of(const unsigned int n, const std::string &what)
     {
       return std::to_string(n) + " " + what + (n == 1 ? "" : "s");
@@ -139,10 +131,11 @@ namespace akmon
       if (n_open > 0)
         throw std::runtime_error("the surface has a hole: " + number_of(n_open, "edge") +
                                  " with a triangle on one side only, the first near " +
-                                 place(open));
+                                 place_text(open));
       if (n_crowded > 0)
         throw std::runtime_error("the surface touches itself: " + number_of(n_crowded, "edge") +
-                                 " with more than two triangles, the first near " + place(crowded));
+                                 " with more than two triangles, the first near " +
+                                 place_text(crowded));
     }
 
 
@@ -190,7 +183,7 @@ namespace akmon
                 else if (parts.turned[j] != (parts.turned[i] != disagrees))
                   throw std::runtime_error("the surface has no inside: like a Moebius band it "
                                            "cannot be oriented, near " +
-                                           place(mesh.vertices[mesh.triangles[i][0]]));
+                                           place_text(mesh.vertices[mesh.triangles[i][0]]));
             }
           ++parts.n;
         }
@@ -242,7 +235,7 @@ namespace akmon
           const double volume = surfaces[p].volume();
           if (std::abs(volume) <= 1e-12 * size * size * size)
             throw std::runtime_error("a part of the surface encloses no volume, near " +
-                                     place(mesh.vertices[surfaces[p].triangles[0][0]]));
+                                     place_text(mesh.vertices[surfaces[p].triangles[0][0]]));
           bool hollow = false;
           for (unsigned int other = 0; other < parts.n; ++other)
             if (other != p &&

@@ -11,11 +11,12 @@
 
 namespace box_grid_test
 {
+  using akmon::Box;
   using akmon::BoxGrid;
   using Vector = dealii::Tensor<1, 3>;
 
   bool
-  holds(const BoxGrid::Box &box, const Vector &x)
+  holds(const Box &box, const Vector &x)
   {
     for (unsigned int d = 0; d < 3; ++d)
       if (!(box.lower[d] <= x[d] && x[d] <= box.upper[d]))
@@ -25,7 +26,7 @@ namespace box_grid_test
 
 
   std::vector<unsigned int>
-  holding(const std::vector<BoxGrid::Box> &boxes, const Vector &x)
+  holding(const std::vector<Box> &boxes, const Vector &x)
   {
     std::vector<unsigned int> numbers;
     for (unsigned int i = 0; i < boxes.size(); ++i)
@@ -43,7 +44,7 @@ namespace box_grid_test
       std::uniform_real_distribution<double> uniform;
       for (unsigned int i = 0; i < n; ++i)
         {
-          BoxGrid::Box box;
+          Box box;
           for (unsigned int d = 0; d < 3; ++d)
             {
               box.lower[d] = uniform(random) - 0.5 + (i % 2 ? 1000. : 0.);
@@ -76,7 +77,7 @@ namespace box_grid_test
     }
 
     std::mt19937 random{3};
-    std::vector<BoxGrid::Box> boxes;
+    std::vector<Box> boxes;
   };
 
 

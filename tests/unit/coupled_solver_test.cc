@@ -55,7 +55,7 @@ namespace coupled_solver_test
       CoupledSolver solver(boxes.solver, boxes.nodes, mobility);
       solver.begin_step(pairs, dx_free, std::vector<double>(pairs.size(), mu), mass_factor);
       EXPECT_EQ(solver.has_friction(), mu > 0.);
-      solver.solve(dx_free);
+      solver.solve();
       EXPECT_TRUE(solver.converged());
       EXPECT_LE(solver.residual(), boxes.solver.tolerance);
       iterations = solver.iterations();
@@ -169,7 +169,7 @@ namespace coupled_solver_test
                       alone.dx_free,
                       std::vector<double>(pairs.size(), 0.),
                       Alone::mass_factor);
-    solver.solve(alone.dx_free);
+    solver.solve();
     EXPECT_LE(solver.iterations(), 4u);
   }
 
@@ -188,7 +188,7 @@ namespace coupled_solver_test
                       alone.dx_free,
                       std::vector<double>(pairs.size(), 0.4),
                       Alone::mass_factor);
-    solver.solve(alone.dx_free);
+    solver.solve();
     EXPECT_EQ(solver.iterations(), 0u);
     for (const auto &pair : pairs)
       EXPECT_EQ(pair.normal_force, 0.);

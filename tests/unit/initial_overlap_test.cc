@@ -169,7 +169,7 @@ namespace initial_overlap_test
     catch (const InputError &error)
       {
         const std::string text = error.what();
-        for (const char *const part : {"'left'", "'right'", "0.0899999", "deep", "(0.0"})
+        for (const char *const part : {"'left'", "'right'", "0.09 deep", "(0.1, "})
           EXPECT_NE(text.find(part), std::string::npos) << text;
       }
   }

@@ -9,7 +9,7 @@
 namespace akmon
 {
   /// The format of the checkpoints that this version writes and reads. Goes up with every change.
-  constexpr unsigned int checkpoint_format = 2;
+  constexpr unsigned int checkpoint_format = 3;
 
   /// Bytes before the HDF5 part of a checkpoint (HDF5's user block).
   constexpr std::uint64_t checkpoint_header_size = 512;

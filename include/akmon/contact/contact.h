@@ -55,6 +55,8 @@ namespace akmon
     unsigned int iterations     = 0;    ///< of the coupled solver, the same on all ranks
     bool converged              = true; ///< whether it met its tolerance, the same on all ranks
     double residual             = 0.;   ///< gap violation it left, over the size of the cell faces
+    double driven_penetration   = 0.;   ///< largest where motions of both sides are prescribed, so
+                                        ///< that no force prevents it, over the cell size
     std::vector<InterfaceReport> interfaces;
   };
 
@@ -146,6 +148,11 @@ namespace akmon
 
     ContactReport
     report(const NodalState &state) const;
+
+    /// Where the report's driven penetration is: which bodies, how deep and where; empty if nowhere
+    /// (collective).
+    std::string
+    driven_bodies(const NodalState &state) const;
 
     /// Seconds that this rank has worked on its pairs, their search and their forces, without
     /// waiting for others.
@@ -239,6 +246,10 @@ namespace akmon
     warm_start();
     double
     release(const ContactPair &pair, const NodalState &state) const;
+    bool
+    is_driven(const ContactPair &pair) const;
+    std::string
+    sides_of(const ContactPair &pair, const ContactNodes::Field &body_of_node) const;
     void
     set_target_gaps(const NodalState &state);
     void

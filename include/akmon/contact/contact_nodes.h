@@ -191,14 +191,15 @@ namespace akmon
       Id node;
       unsigned int interface;
       Id slave;
+      bool of_rigid_feature; ///< the slave is none of a surface
       dealii::Tensor<1, 3> normal, tangential;
       bool sticks;
     };
 
     /**
      * Bring every contribution to the owner of its node. On return all are on owned nodes and
-     * sorted by node, interface and slave: sums over them do not depend on the number of ranks
-     * (collective).
+     * sorted by node, interface and slave, rigid bodies last: sums over them do not depend on the
+     * number of ranks (collective).
      */
     void
     send_to_owners(std::vector<Contribution> &contributions) const;

@@ -113,6 +113,10 @@ namespace akmon
     bool
     moves_alike(const ContactPair &pair) const;
 
+    /// Whether no force between its nodes moves a pair along a unit direction.
+    bool
+    is_held_along(const ContactPair &pair, const dealii::Tensor<1, 3> &direction) const;
+
     /// d . A_ii d of a pair along a unit direction d, for m* = m times @p mass_factor;
     /// length/force.
     double

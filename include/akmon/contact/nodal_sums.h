@@ -33,8 +33,7 @@ namespace akmon
     {
       ContactNodes::Id node;
       ContactNodes::Id slave;
-      unsigned int interface, slot;
-      bool of_edges, reversed;
+      unsigned int interface, group, slot;
       std::array<ContactNodes::Id, 3> others;
       dealii::Tensor<1, 3> value;
     };
@@ -73,9 +72,8 @@ namespace akmon
       shares.push_back({nodes.id(pair.nodes[k]),
                         pair.slave_id,
                         pair.interface,
+                        pair.group(),
                         pair.slot,
-                        pair.of_edges,
-                        pair.reversed,
                         pair.others,
                         value_of(i, k)});
     };

@@ -4,6 +4,7 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <tuple>
@@ -34,8 +35,9 @@ namespace akmon
    * exactly.
    *
    * Or a point of a sharp corner or edge of a rigid body and one of a surface (FeatureSearch), the
-   * body being the slave. Or points of two rigid bodies (RigidTouch): of a feature of the slave,
-   * whose number is in the id and in the slot that of the point among those of the feature.
+   * body being the slave, known by the number of the corner or edge among the body's. Or points of
+   * two rigid bodies (RigidTouch), known by the number of the touch, in the slot by that of the
+   * slave's feature and in the others by that of the point among those of the feature.
    *
    * A rigid body that moves has two contact nodes, one with its centre's motion u_c and one with
    * its rotation theta: it moves by u_c + theta x r at the slave's place r from the centre. The
@@ -43,14 +45,25 @@ namespace akmon
    */
   struct ContactPair
   {
-    unsigned int interface;   ///< number of the contact or obstacle
-    bool of_edges    = false; ///< an edge with an edge or a face, not a node and a segment
-    bool of_features = false; ///< a rigid body's corner or edge with a face or edge of a surface
-    bool reversed    = false; ///< slave and master of the interface change roles
-    unsigned int slave;       ///< local number of the (owned) slave node
-    ContactNodes::Id slave_id;
+    /// What meets what, in the order of keys.
+    enum class Kind : unsigned char
+    {
+      node_to_face,  ///< a slave node and a face (SurfaceSearch)
+      node_to_shape, ///< a slave node and a rigid body (ObstacleSearch)
+      rigid_touch,   ///< two rigid bodies (RigidTouch)
+      rigid_feature, ///< a sharp corner or edge of a rigid body and a surface (FeatureSearch)
+      edges,         ///< two sharp edges that cross (EdgeSearch)
+      dip            ///< an edge and the inside of a face, or a smooth edge, that has joined where
+                     ///< it dips between other pairs (EdgeSearch)
+    };
+
+    unsigned int interface; ///< number of the contact or obstacle
+    Kind kind     = Kind::node_to_face;
+    bool reversed = false;     ///< slave and master of the interface change roles
+    unsigned int slave;        ///< local number of the (owned) slave node, if it has_slave_node()
+    ContactNodes::Id slave_id; ///< of the kind: other kinds may have the same
     std::array<ContactNodes::Id, 3> others{}; ///< of edges: ids of further nodes, for two b, c, d
-    unsigned int slot   = 0;     ///< 0: with the closest face; else with another face of a corner
+    unsigned int slot   = 0;     ///< among the pairs of a slave; of a node 0: the closest face
     bool shares_corner  = false; ///< the slave has pairs with several faces, each for itself
     unsigned int search = 0;     ///< that found it: its number, of the slave and of the face there
     unsigned int row    = 0;
@@ -95,25 +108,48 @@ namespace akmon
       return normal_force * normal + tangential_force;
     }
 
+    /// Interface, group, slave, slot, others.
+    using Key = std::tuple<unsigned int,
+                           unsigned int,
+                           ContactNodes::Id,
+                           unsigned int,
+                           std::array<ContactNodes::Id, 3>>;
+
     /// What a pair is known by from step to step. Lists of pairs are sorted by it.
-    auto
+    Key
     key() const
     {
-      return std::make_tuple(interface, of_edges, reversed, slave_id, slot, others);
+      return {interface, group(), slave_id, slot, others};
     }
 
-    /// Whether it is of two rigid bodies (RigidTouch).
-    bool
-    is_touch() const
+    /// Where it stands among the pairs of its interface: slaves of both sides, then edges.
+    unsigned int
+    group() const
     {
-      return slave == dealii::numbers::invalid_unsigned_int && !of_edges && !of_features;
+      constexpr unsigned int n_of_side = static_cast<unsigned int>(Kind::edges);
+      return of_edges() ? 2 * n_of_side :
+                          (reversed ? n_of_side : 0) + static_cast<unsigned int>(kind);
     }
 
-    /// Whether it has joined where edges or faces dip between other pairs (EdgeSearch).
+    /// Whether it is of a slave node alone.
     bool
-    is_dip() const
+    of_node() const
     {
-      return of_edges && slot > 0;
+      return kind <= Kind::node_to_shape;
+    }
+
+    /// Whether it is of edges of two surfaces, or of one and a face.
+    bool
+    of_edges() const
+    {
+      return kind >= Kind::edges;
+    }
+
+    /// Whether a node stands for the slave; else a rigid body is it.
+    bool
+    has_slave_node() const
+    {
+      return of_node() || of_edges();
     }
 
     /// Whether the step leads past the edges of its face, where its gap may tell nothing.
@@ -216,6 +252,27 @@ namespace akmon
       return v - (normal * v) * normal;
     }
   };
+
+
+  /// The order of lists of pairs.
+  inline constexpr auto by_key = [](const ContactPair &a, const ContactPair &b) {
+    return a.key() < b.key();
+  };
+
+
+  /// The pair with a key in a list sorted by them; its end if there is none.
+  template <typename Pairs>
+  auto
+  find_pair(Pairs &pairs, const ContactPair::Key &key)
+  {
+    const auto found = std::lower_bound(pairs.begin(),
+                                        pairs.end(),
+                                        key,
+                                        [](const ContactPair &pair, const ContactPair::Key &key) {
+                                          return pair.key() < key;
+                                        });
+    return found != pairs.end() && found->key() == key ? found : pairs.end();
+  }
 
 
   /**

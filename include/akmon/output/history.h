@@ -1,5 +1,7 @@
 #pragma once
 
+#include <akmon/output/text.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <cstdint>
@@ -10,10 +12,6 @@
 
 namespace akmon
 {
-  /// The shortest decimal text that reads back as exactly this number ("0.1", "1e-300", "nan").
-  std::string
-  shortest_text(const double number);
-
   /**
    * The time history of a run: a CSV file with a header of column names and one row per call, on
    * the disk when the call returns. Numbers are in the units of the run and lose no digit.

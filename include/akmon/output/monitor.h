@@ -86,6 +86,13 @@ namespace akmon
       return worst;
     }
 
+    /// Whether bodies whose motion is prescribed were inside each other in the last row.
+    bool
+    bodies_are_driven() const
+    {
+      return is_driven;
+    }
+
     /// Whether a penetration was deeper than the bound: contact is lost, or penalty springs are
     /// soft.
     bool
@@ -177,6 +184,7 @@ namespace akmon
     Extremum deepest;                                   ///< penetration over the cell size so far
     Extremes worst;
     SolverRecord solver_record;
+    bool is_driven             = false; ///< see bodies_are_driven()
     bool row_due               = false;
     bool level_written         = false; ///< whether the fields of this level are on disk
     std::uint64_t history_size = 0;     ///< at the checkpoint the run goes on from; bytes

@@ -69,6 +69,10 @@ namespace akmon
     void
     recall(const std::string &earlier);
 
+    /// Whether there has been a warning with a text in it.
+    bool
+    has_warned_of(const std::string &text) const;
+
     /// The warnings given on this rank so far.
     const std::vector<std::string> &
     warnings() const;

@@ -1,4 +1,5 @@
 #include <akmon/contact/bonds/bond_points.h>
+#include <akmon/contact/search/face_geometry.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -64,7 +65,7 @@ namespace akmon
     struct Plane
     {
       explicit Plane(const Segment &corners)
-        : origin(0.25 * (corners[0] + corners[1] + corners[2] + corners[3]))
+        : origin(middle_of(corners))
         , normal(area_vector(corners))
       {
         normal /= normal.norm();
@@ -102,7 +103,7 @@ namespace akmon
     quarter(const Segment &corners, const unsigned int k, const Plane &plane)
     {
       const auto &a = corners[k], &b = corners[(k + 1) % 4], &d = corners[(k + 3) % 4];
-      const auto middle = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
+      const auto middle = middle_of(corners);
       return {plane.project(a),
               plane.project(0.5 * (a + b)),
               plane.project(middle),

@@ -116,7 +116,8 @@ namespace akmon
 
     problem.tolerance  = tolerance;
     problem.sufficient = std::max(parameters.tolerance, tolerance);
-    // Where no friction was found in this step none would be now: gaps are closed at once.
+    // Where Newton steps found no friction in this step they would not now: one of them, and on to
+    // what solve() tries after them.
     problem.limit      = result.converged || !problem.rubs() ? parameters.limit : 1;
     problem.compliance = compliance;
     problem.b.resize(members.size());

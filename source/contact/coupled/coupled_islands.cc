@@ -48,13 +48,13 @@ namespace akmon
 
   // Pairs that other ranks can have no part in stay on this one.
   void
-  CoupledSolver::divide_into_islands(const ContactNodes::Field &dx_free)
+  CoupledSolver::divide_into_islands()
   {
     std::swap(old_islands, islands);
     islands.clear();
     lone.clear();
     collect_own_pairs();
-    divide_own_pairs(dx_free);
+    divide_own_pairs();
     if (nodes.is_parallel())
       divide_shared_pairs();
     old_islands.clear();
@@ -86,7 +86,7 @@ namespace akmon
 
 
   void
-  CoupledSolver::divide_own_pairs(const ContactNodes::Field &dx_free)
+  CoupledSolver::divide_own_pairs()
   {
     const WorkTime timing(seconds_of_work);
     const unsigned int of_bonds = nodes.size();
@@ -115,7 +115,7 @@ namespace akmon
       if (const auto list = lists[l];
           nodes.is_parallel() && std::any_of(list.begin(), list.end(), is_shared))
         for (const unsigned int i : list)
-          append_closing_pair(own[i], bonded[i], dx_free, shared);
+          append_closing_pair(own[i], bonded[i], shared);
       else if (list.size() == 1 && !bonded[list[0]] && mobility.moves_alike(*all[own[list[0]]]))
         lone.push_back(own[list[0]]);
       else
@@ -123,7 +123,7 @@ namespace akmon
           members.clear();
           for (const unsigned int i : list)
             {
-              append_closing_pair(own[i], bonded[i], dx_free, closing);
+              append_closing_pair(own[i], bonded[i], closing);
               members.push_back(&closing.back());
             }
           make_island(old_island);
@@ -134,14 +134,13 @@ namespace akmon
   void
   CoupledSolver::append_closing_pair(const unsigned int number,
                                      const bool bonded,
-                                     const ContactNodes::Field &dx_free,
                                      std::vector<ClosingPair> &pairs) const
   {
     const ContactPair &pair = *all[number];
     ClosingPair &closing    = pairs.emplace_back();
     closing.pair            = &pair;
     closing.friction        = friction_of_all[number];
-    closing.free_motion     = pair.relative(dx_free);
+    closing.free_motion     = pair.relative(*free_increments);
     closing.is_bonded       = bonded;
     closing.rank            = rank;
     closing.number          = number;
@@ -166,7 +165,7 @@ namespace akmon
     order.resize(of_all_ranks.size());
     std::iota(order.begin(), order.end(), 0U);
     std::sort(order.begin(), order.end(), [&](const auto a, const auto b) {
-      return of_all_ranks[a].pair.key() < of_all_ranks[b].pair.key();
+      return by_key(of_all_ranks[a].pair, of_all_ranks[b].pair);
     });
 
     const ContactNodes::Id of_bonds = nodes.first_common_id() + nodes.size() - nodes.first_common();
@@ -207,7 +206,7 @@ namespace akmon
   void
   CoupledSolver::make_island(std::vector<std::unique_ptr<Island>>::iterator &old)
   {
-    const Key key = members.front()->pair->key();
+    const auto key = members.front()->pair->key();
     while (old != old_islands.end() && (!*old || (*old)->key < key))
       ++old;
     const bool is_known = old != old_islands.end() && (*old)->key == key;

@@ -22,7 +22,7 @@ namespace akmon
 
       double largest = 0.;
       for (const ContactPair *const pair : pairs)
-        if (pair->slave == numbers::invalid_unsigned_int)
+        if (!pair->has_slave_node())
           largest = std::max(largest, rounding * (1. + pair->place.norm() / pair->size));
       return largest;
     }
@@ -47,18 +47,17 @@ namespace akmon
   // what the fastest pair would do freely. What rigid bodies' rims touch may be elsewhere then.
   void
   CoupledSolver::choose_participants(std::vector<ContactPair> &pairs,
-                                     const ContactNodes::Field &dx_free,
                                      const std::vector<double> &friction_of_pairs)
   {
     double fastest = 0.;
     for (const auto &pair : pairs)
-      fastest = std::max(fastest, std::abs(pair.normal * pair.relative(dx_free)));
+      fastest = std::max(fastest, std::abs(pair.normal * pair.relative(*free_increments)));
     const double margin = 4. * Utilities::MPI::max(fastest, nodes.get_communicator());
     all.clear();
     friction_of_all.clear();
     active.clear();
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      if (pairs[i].target_gap <= margin || pairs[i].is_touch())
+      if (pairs[i].target_gap <= margin || pairs[i].kind == ContactPair::Kind::rigid_touch)
         {
           all.push_back(&pairs[i]);
           friction_of_all.push_back(friction_of_pairs[i]);
@@ -81,7 +80,8 @@ namespace akmon
     n_applications = n_coupled = last_residual = 0.;
     all_converged                              = true;
     mass_factor                                = effective_mass_factor;
-    take_up_anew(pairs, dx_free, friction_of_pairs);
+    free_increments                            = &dx_free;
+    take_up_anew(pairs, friction_of_pairs);
     const bool friction_here = std::any_of(friction_of_all.begin(),
                                            friction_of_all.end(),
                                            [](const double mu) { return mu > 0.; });
@@ -91,10 +91,9 @@ namespace akmon
 
   void
   CoupledSolver::take_up_anew(std::vector<ContactPair> &pairs,
-                              const ContactNodes::Field &dx_free,
                               const std::vector<double> &friction_of_pairs)
   {
-    choose_participants(pairs, dx_free, friction_of_pairs);
+    choose_participants(pairs, friction_of_pairs);
     response.reinit(all, mass_factor);
     has_begun = false;
     for (const auto &island : islands)
@@ -103,22 +102,22 @@ namespace akmon
 
 
   void
-  CoupledSolver::solve(const ContactNodes::Field &dx_free)
+  CoupledSolver::solve()
   {
-    const double tolerance = tolerance_for(dx_free);
-    bool join              = activate(dx_free, nullptr, 0.) || !has_begun;
+    const double tolerance = tolerance_for();
+    bool join              = activate(nullptr, 0.) || !has_begun;
     has_begun              = true;
     do
       {
         if (join)
-          divide_into_islands(dx_free);
+          divide_into_islands();
         else
           take_target_gaps();
-        solve_lone_pairs(dx_free);
+        solve_lone_pairs();
         solve_islands(tolerance);
         bring_forces_home();
         response.update();
-        join = activate(dx_free, &response.increments(), tolerance);
+        join = activate(&response.increments(), tolerance);
       }
     while (join);
   }
@@ -126,11 +125,9 @@ namespace akmon
 
   // n . G (dx_f + caused) + g
   double
-  CoupledSolver::gap_after(const ContactPair &pair,
-                           const ContactNodes::Field &dx_free,
-                           const ContactNodes::Field *const caused) const
+  CoupledSolver::gap_after(const ContactPair &pair, const ContactNodes::Field *const caused) const
   {
-    const double gap = pair.normal * pair.relative(dx_free) + pair.target_gap;
+    const double gap = pair.normal * pair.relative(*free_increments) + pair.target_gap;
     return caused ? gap + pair.normal * pair.relative(*caused) : gap;
   }
 
@@ -139,13 +136,13 @@ namespace akmon
   // violation over the violation without contact forces is the relative error of the forces. Gaps
   // are not known better than to rounding, though.
   double
-  CoupledSolver::tolerance_for(const ContactNodes::Field &dx_free) const
+  CoupledSolver::tolerance_for() const
   {
     constexpr double force_tolerance = 1e-11, rounding = 1e-14;
 
     double violation = 0.;
     for (const ContactPair *const pair : all)
-      violation = std::max(violation, -gap_after(*pair, dx_free, nullptr) / pair->size);
+      violation = std::max(violation, -gap_after(*pair, nullptr) / pair->size);
     const double relative = force_tolerance *
                             Utilities::MPI::max(violation, nodes.get_communicator());
     return std::max(std::min(parameters.tolerance, std::max(relative, rounding)),
@@ -156,13 +153,11 @@ namespace akmon
   // Pairs join that penetrate by more than what is tolerated, relative to the cell size, and that
   // forces can move. Whether there are any, on any rank.
   bool
-  CoupledSolver::activate(const ContactNodes::Field &dx_free,
-                          const ContactNodes::Field *const caused,
-                          const double tolerance)
+  CoupledSolver::activate(const ContactNodes::Field *const caused, const double tolerance)
   {
     bool any = false;
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (!active[i] && gap_after(*all[i], dx_free, caused) < -tolerance * all[i]->size &&
+      if (!active[i] && gap_after(*all[i], caused) < -tolerance * all[i]->size &&
           mobility.along(*all[i], all[i]->normal, mass_factor) > 0.)
         any = active[i] = true;
     return Utilities::MPI::max(int(any), nodes.get_communicator()) > 0;
@@ -171,13 +166,13 @@ namespace akmon
 
   // A_ii is a multiple of the identity, at least where the nodes can move: (80) and (82).
   void
-  CoupledSolver::solve_lone_pairs(const ContactNodes::Field &dx_free)
+  CoupledSolver::solve_lone_pairs()
   {
     const WorkTime timing(seconds_of_work);
     for (const unsigned int i : lone)
       {
         ContactPair &pair      = *all[i];
-        const auto free_motion = pair.relative(dx_free);
+        const auto free_motion = pair.relative(*free_increments);
         const double A_ii      = mobility.along(pair, pair.normal, mass_factor);
         const double stiffness = A_ii > 0. ? 1. / A_ii : 0.; // else forces move nothing
         const double gap       = pair.normal * free_motion + pair.target_gap;

@@ -119,14 +119,8 @@ namespace akmon
     for (const auto &group : groups)
       for (const Member &member : group->members)
         {
-          const auto pair = std::lower_bound(pairs->begin(),
-                                             pairs->end(),
-                                             member.key,
-                                             [](const ContactPair &a, const Key &key) {
-                                               return a.key() < key;
-                                             });
-          if (pair == pairs->end() || pair->key() != member.key ||
-              !alike(member.face, faces[pair - pairs->begin()]))
+          const auto pair = find_pair(*pairs, member.key);
+          if (pair == pairs->end() || !alike(member.face, faces[pair - pairs->begin()]))
             return false;
           --n_closed;
         }

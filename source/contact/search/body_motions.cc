@@ -19,7 +19,7 @@ namespace akmon
     double
     widest_difference(const unsigned int n, const Vectors &vector)
     {
-      BoxGrid::Box box{vector(0), vector(0)};
+      Box box{vector(0), vector(0)};
       for (unsigned int i = 1; i < n; ++i)
         box.include(vector(i));
       return (box.upper - box.lower).norm();

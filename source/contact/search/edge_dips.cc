@@ -75,21 +75,6 @@ namespace akmon
     }
 
 
-    // The pair with the same key; the end if there is none.
-    template <typename Pairs>
-    auto
-    find(Pairs &pairs, const ContactPair &pair)
-    {
-      const auto found = std::lower_bound(pairs.begin(),
-                                          pairs.end(),
-                                          pair,
-                                          [](const ContactPair &a, const ContactPair &b) {
-                                            return a.key() < b.key();
-                                          });
-      return found != pairs.end() && found->key() == pair.key() ? found : pairs.end();
-    }
-
-
     // The part of the edge at which a pair with a face is.
     double
     part_of(const ContactPair &pair)
@@ -161,16 +146,15 @@ namespace akmon
 
     std::vector<ContactPair> known;
     for (const auto &pair : previous)
-      if (pair.interface == interface && pair.of_edges && pair.slot > 0 && pair.normal_force > 0.)
+      if (pair.interface == interface && pair.kind == ContactPair::Kind::dip &&
+          pair.normal_force > 0.)
         {
           known.push_back(pair);
           known.back().slot %= n_kinds;
         }
     if (known.empty())
       return;
-    std::sort(known.begin(), known.end(), [](const ContactPair &a, const ContactPair &b) {
-      return a.key() < b.key();
-    });
+    std::sort(known.begin(), known.end(), by_key);
     for (const auto &[slave, master] : near_lines)
       {
         EdgeCrossing crossing;
@@ -178,9 +162,8 @@ namespace akmon
             !are_opposed(x, slaves[slave], masters[master], reach, crossing) ||
             past_end(crossing.s) > 0. || past_end(crossing.t) > 0.)
           continue;
-        auto pair = make_pair(x, slave, master, crossing);
-        pair.slot = of_smooth_edge;
-        if (find(known, pair) != known.end())
+        const auto pair = make_line_pair(x, slave, master, crossing);
+        if (find_pair(known, pair.key()) != known.end())
           pairs.push_back(pair);
       }
     for (const auto &dip : near_dips)
@@ -189,7 +172,7 @@ namespace akmon
         if (!may_dip(x, dip) || !deepest_place(x, dip, s))
           continue;
         const auto pair = make_dip(x, dip, s);
-        if (pair.gap <= reach && find(known, pair) != known.end())
+        if (pair.gap <= reach && find_pair(known, pair.key()) != known.end())
           pairs.push_back(pair);
       }
   }
@@ -218,6 +201,20 @@ namespace akmon
   }
 
 
+  // Of edges that cross, one of them smooth.
+  ContactPair
+  EdgeSearch::make_line_pair(const ContactNodes::Field &x,
+                             const unsigned int slave,
+                             const unsigned int master,
+                             const EdgeCrossing &crossing) const
+  {
+    auto pair = make_pair(x, slave, master, crossing);
+    pair.kind = ContactPair::Kind::dip;
+    pair.slot = of_smooth_edge;
+    return pair;
+  }
+
+
   ContactPair
   EdgeSearch::make_dip(const ContactNodes::Field &x, const Dip &dip, const double s) const
   {
@@ -232,7 +229,7 @@ namespace akmon
 
     ContactPair pair;
     pair.interface = interface;
-    pair.of_edges  = true;
+    pair.kind      = ContactPair::Kind::dip;
     pair.slave     = dip.of_master ? face.local : edge.first;
     pair.slave_id  = dip.of_master ? across[0] : edge.ids[0];
     pair.others    = dip.of_master ?
@@ -321,10 +318,11 @@ namespace akmon
         if (pair.gap < -inside * pair.size || gap >= pair.gap - tolerance)
           continue;
         bool is_seen = false;
-        for (auto known = find(pairs, pair); known != pairs.end(); known = find(pairs, pair))
+        for (auto known = find_pair(pairs, pair.key()); known != pairs.end();
+             known      = find_pair(pairs, pair.key()))
           {
-            is_seen = is_seen || std::abs(part_of(*known) - s) < around;
-            pair.slot += n_kinds;
+                 is_seen = is_seen || std::abs(part_of(*known) - s) < around;
+                 pair.slot += n_kinds;
           }
         if (is_seen)
           continue;
@@ -364,9 +362,8 @@ namespace akmon
                          (point_on(x, a, crossing.s) - point_on(x, b, crossing.t));
         if (crossing.gap < -inside * size || gap >= crossing.gap - tolerance)
           continue;
-        auto pair = make_pair(x, slave, master, crossing);
-        pair.slot = of_smooth_edge;
-        if (find(pairs, pair) != pairs.end())
+        auto pair = make_line_pair(x, slave, master, crossing);
+        if (find_pair(pairs, pair.key()) != pairs.end())
           continue;
         pair.curvature = gap - pair.gap - pair.normal * pair.relative(increments);
         joining.push_back(pair);

@@ -218,7 +218,7 @@ namespace akmon
     const double s = crossing.s, t = crossing.t;
     ContactPair pair;
     pair.interface = interface;
-    pair.of_edges  = true;
+    pair.kind      = ContactPair::Kind::edges;
     pair.slave     = a.first;
     pair.slave_id  = a.ids[0];
     pair.others    = {{a.ids[1], b.ids[0], b.ids[1]}};
@@ -262,16 +262,10 @@ namespace akmon
         EdgeCrossing crossing;
         if (!meet(x, next, slaves[slave], masters[master], reach, crossing))
           continue;
-        const auto pair  = make_pair(x, slave, master, crossing);
-        const auto known = std::lower_bound(previous.begin(),
-                                            previous.end(),
-                                            pair,
-                                            [](const ContactPair &a, const ContactPair &b) {
-                                              return a.key() < b.key();
-                                            });
+        const auto pair = make_pair(x, slave, master, crossing);
         // Edges that are past each other and were not a pair before are none: a corner stands on a
         // face, beside an edge that another edge of the corner crosses.
-        const bool is_new = known == previous.end() || known->key() != pair.key();
+        const bool is_new = find_pair(previous, pair.key()) == previous.end();
         if (is_new && (pair.gap < -barely_inside * pair.size || crossing.sine < first_sine))
           continue;
         pairs.push_back(pair);
@@ -279,8 +273,6 @@ namespace akmon
     const std::size_t n_crossings = pairs.size();
     find_dips(x, reach, previous, pairs);
     if (pairs.size() > n_crossings)
-      std::sort(pairs.begin() + first, pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-        return a.key() < b.key();
-      });
+      std::sort(pairs.begin() + first, pairs.end(), by_key);
   }
 } // namespace akmon

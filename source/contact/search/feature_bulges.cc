@@ -177,7 +177,7 @@ namespace akmon
         double seen         = 0.;
         unsigned int number = 0;
         for (const auto &pair : pairs)
-          if (pair.of_features && pair.interface == interface)
+          if (pair.kind == ContactPair::Kind::rigid_feature && pair.interface == interface)
             if (const Record &record = records[pair.row];
                 record.kind == Kind::bulge && record.feature == feature && record.partner == f)
               {

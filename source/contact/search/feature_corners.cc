@@ -15,10 +15,7 @@ namespace akmon
     constexpr double opposed  = 0.02; // cosine: a corner and a face look at each other
     constexpr double above    = 1e-3; // of the face's size: beside it by less counts as on it
     constexpr double rounding = 1e-6; // of the face's size
-
-    // Ids of features: behind all nodes' ids and those of touching rigid bodies.
-    constexpr ContactNodes::Id first_feature_id = ContactNodes::Id(1) << 31;
-  } // namespace
+  }                                   // namespace
 
 
   ContactPair
@@ -29,11 +26,10 @@ namespace akmon
     const auto &edge   = surface.get_edges()[of_edge ? record.partner : 0];
     const auto &face   = surface.get_faces()[of_edge ? edge.faces[0] : record.partner];
     pair.interface     = interface;
-    pair.of_features   = true;
+    pair.kind          = ContactPair::Kind::rigid_feature;
     pair.slave         = numbers::invalid_unsigned_int;
-    pair.slave_id      = first_feature_id + first_feature + record.feature +
-                    (record.kind == Kind::corner ? 0 : features.vertices.size());
-    pair.slot = static_cast<unsigned int>(record.kind) + record.part;
+    pair.slave_id = record.feature + (record.kind == Kind::corner ? 0 : features.vertices.size());
+    pair.slot     = static_cast<unsigned int>(record.kind) + record.part;
     if (of_edge)
       pair.others = {{edge.ids[0], edge.ids[1], 0}};
     else
@@ -71,9 +67,7 @@ namespace akmon
     find_corner_pairs(view, pairs);
     find_crossings(view, previous, pairs);
     find_bulges(view, previous, pairs);
-    std::sort(pairs.begin() + first, pairs.end(), [](const ContactPair &a, const ContactPair &b) {
-      return a.key() < b.key();
-    });
+    std::sort(pairs.begin() + first, pairs.end(), by_key);
   }
 
 

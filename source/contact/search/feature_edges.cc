@@ -36,7 +36,7 @@ namespace akmon
       const auto &edge  = surface.get_edges()[e];
       const auto first  = surface.segment(x, edge.faces[0]);
       const auto n      = unit_normal(first);
-      const auto inward = 0.25 * (first[0] + first[1] + first[2] + first[3]) - x[edge.nodes[0]];
+      const auto inward = middle_of(first) - x[edge.nodes[0]];
       auto second       = cross_product_3d(along, n);
       if (second * inward > 0.)
         second *= -1.;
@@ -45,7 +45,7 @@ namespace akmon
         {
           const auto other = surface.segment(x, edge.faces[1]);
           second           = unit_normal(other);
-          side = (0.25 * (other[0] + other[1] + other[2] + other[3]) - x[edge.nodes[0]]) * n;
+          side             = (middle_of(other) - x[edge.nodes[0]]) * n;
         }
       auto mean = n + second;
       mean -= (mean * along) * along;
@@ -190,12 +190,7 @@ namespace akmon
   FeatureSearch::is_behind(const ContactPair &pair, const std::vector<ContactPair> &previous)
   {
     return pair.gap < -barely_inside * pair.size &&
-           !std::binary_search(previous.begin(),
-                               previous.end(),
-                               pair,
-                               [](const ContactPair &a, const ContactPair &b) {
-                                 return a.key() < b.key();
-                               });
+           find_pair(previous, pair.key()) == previous.end();
   }
 
 

@@ -37,16 +37,14 @@ namespace akmon
   FeatureSearch::FeatureSearch(const Discretization &discretization,
                                const RigidBody &body,
                                const std::vector<BoundaryFace> &faces,
-                               const unsigned int interface,
-                               const unsigned int first_feature)
+                               const unsigned int interface)
     : discretization(discretization)
     , body(body)
     , surface_faces(faces)
     , interface(interface)
-    , first_feature(first_feature)
     , features(body.parameters().shape->sharp_features(body.parameters().edge_angle))
   {
-    if (n_features() == 0)
+    if (features.vertices.empty() && features.edges.empty())
       return;
     // The largest face's, which does not depend on the order of a sum.
     double largest = 0.;

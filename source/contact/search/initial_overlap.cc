@@ -1,3 +1,4 @@
+#include <akmon/contact/search/box.h>
 #include <akmon/contact/search/face_geometry.h>
 #include <akmon/contact/search/initial_overlap.h>
 #include <akmon/model/hexahedron_cell.h>
@@ -28,78 +29,21 @@ namespace akmon
     constexpr double tolerated = 1e-6;
 
 
-    // An axis-parallel box that may be empty and travels between ranks.
-    struct Box
-    {
-      std::array<double, 3> lower{{std::numeric_limits<double>::max(),
-                                   std::numeric_limits<double>::max(),
-                                   std::numeric_limits<double>::max()}};
-      std::array<double, 3> upper{{std::numeric_limits<double>::lowest(),
-                                   std::numeric_limits<double>::lowest(),
-                                   std::numeric_limits<double>::lowest()}};
-
-      void
-      add(const Point<3> &point)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            lower[d] = std::min(lower[d], point[d]);
-            upper[d] = std::max(upper[d], point[d]);
-          }
-      }
-
-      void
-      add(const Box &other)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            lower[d] = std::min(lower[d], other.lower[d]);
-            upper[d] = std::max(upper[d], other.upper[d]);
-          }
-      }
-
-      bool
-      meets(const Box &other) const
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          if (lower[d] > other.upper[d] || upper[d] < other.lower[d])
-            return false;
-        return true;
-      }
-
-      bool
-      contains(const Point<3> &point) const
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          if (point[d] < lower[d] || point[d] > upper[d])
-            return false;
-        return true;
-      }
-
-      BoundingBox<3>
-      bounding_box() const
-      {
-        return BoundingBox<3>(
-          {Point<3>(lower[0], lower[1], lower[2]), Point<3>(upper[0], upper[1], upper[2])});
-      }
-
-      template <class Archive>
-      void
-      serialize(Archive &archive, const unsigned int)
-      {
-        archive &lower &upper;
-      }
-    };
-
-
     template <typename Corners>
     Box
     box_of(const Corners &corners)
     {
       Box box;
       for (const auto &corner : corners)
-        box.add(Point<3>(corner));
+        box.include(corner);
       return box;
+    }
+
+
+    BoundingBox<3>
+    bounding_box(const Box &box)
+    {
+      return BoundingBox<3>({Point<3>(box.lower), Point<3>(box.upper)});
     }
 
 
@@ -128,12 +72,12 @@ namespace akmon
         std::vector<Box> own(discretization.get_bodies().size());
         for (const auto &cell : discretization.cells)
           if (cell.owned)
-            own[cell.body].add(box_of(discretization.corners_of(cell)));
+            own[cell.body].include(box_of(discretization.corners_of(cell)));
         of_ranks = Utilities::MPI::all_gather(discretization.communicator(), own);
         whole.resize(own.size());
         for (const auto &of_rank : of_ranks)
           for (unsigned int body = 0; body < whole.size(); ++body)
-            whole[body].add(of_rank[body]);
+            whole[body].include(of_rank[body]);
         partners.resize(own.size());
         for (unsigned int a = 0; a < whole.size(); ++a)
           for (unsigned int b = 0; b < whole.size(); ++b)
@@ -178,9 +122,9 @@ namespace akmon
                places_at(hexahedron.at(discretization.corners_of(discretization.cells[face.cell])),
                          face.id % 6))
             for (const unsigned int partner : boxes.partners[face.body])
-              if (boxes.whole[partner].contains(place))
+              if (boxes.whole[partner].holds(place))
                 for (unsigned int rank = 0; rank < boxes.of_ranks.size(); ++rank)
-                  if (boxes.of_ranks[rank][partner].contains(place))
+                  if (boxes.of_ranks[rank][partner].holds(place))
                     outgoing[rank].push_back({place, face.body, partner, 0.});
       std::vector<Sample> samples = std::move(outgoing[me]);
       outgoing.erase(me);
@@ -220,7 +164,7 @@ namespace akmon
           if (!boxes.partners[face.body].empty())
             {
               const Segment corners = segment_of(face, discretization.reference);
-              entries[face.body].emplace_back(box_of(corners).bounding_box(),
+              entries[face.body].emplace_back(bounding_box(box_of(corners)),
                                               faces[face.body].size());
               faces[face.body].push_back(corners);
             }
@@ -272,7 +216,7 @@ namespace akmon
               std::any_of(others.begin(), others.end(), [&](const unsigned int other) {
                 return box.meets(boxes.whole[other]);
               }))
-            entries.emplace_back(box.bounding_box(), c);
+            entries.emplace_back(bounding_box(box), c);
         }
       const auto tree = pack_rtree(entries);
 
@@ -350,9 +294,7 @@ namespace akmon
     const std::string inside  = discretization.get_bodies()[overlap->inside].name,
                       outside = discretization.get_bodies()[overlap->outside].name;
     throw InputError("[Bodies] '" + inside + "' and '" + outside + "' overlap at the start: '" +
-                     inside + "' is " + shortest_text(overlap->depth) + " deep inside '" + outside +
-                     "' at (" + shortest_text(overlap->place[0]) + ", " +
-                     shortest_text(overlap->place[1]) + ", " + shortest_text(overlap->place[2]) +
-                     "); move the bodies apart");
+                     inside + "' is " + rounded_text(overlap->depth) + " deep inside '" + outside +
+                     "' at " + place_text(overlap->place) + "; move the bodies apart");
   }
 } // namespace akmon

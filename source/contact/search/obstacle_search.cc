@@ -135,6 +135,7 @@ namespace akmon
       }
     ContactPair pair;
     pair.interface  = interface;
+    pair.kind       = ContactPair::Kind::node_to_shape;
     pair.slave      = slave.node;
     pair.slave_id   = id;
     pair.nodes[0]   = number;

@@ -32,7 +32,7 @@ namespace akmon
         region.box.widen(margin);
       }
     regions = gather(regions, communicator);
-    std::vector<BoxGrid::Box> boxes;
+    std::vector<Box> boxes;
     for (const auto &region : regions)
       boxes.push_back(region.box);
     grid.reinit(std::move(boxes));

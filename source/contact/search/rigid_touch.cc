@@ -12,12 +12,8 @@ namespace akmon
 
   namespace
   {
-    // Names of pairs between rigid bodies: behind all nodes' ids.
-    constexpr ContactNodes::Id first_touch_id = ContactNodes::Id(1) << 28;
-    constexpr unsigned int features_per_touch = 1u << 20;
-
-    // Slots of the points that join during a step come behind those found at its begin.
-    constexpr unsigned int first_joined_slot = 1024;
+    // Numbers of the points that join during a step come behind those found at its begin.
+    constexpr unsigned int first_joined = 1024;
 
     // Normals that are as close as this (the cosine between them) are of the same part of a
     // surface.
@@ -92,10 +88,12 @@ namespace akmon
     const unsigned int own = reversed ? second : first, other = reversed ? first : second;
     ContactPair pair;
     pair.interface = interface;
+    pair.kind      = ContactPair::Kind::rigid_touch;
     pair.reversed  = reversed;
     pair.slave     = numbers::invalid_unsigned_int;
-    pair.slave_id  = first_touch_id + ContactNodes::Id(number) * features_per_touch + point.feature;
-    pair.slot      = point.number;
+    pair.slave_id  = number;
+    pair.slot      = point.feature;
+    pair.others    = {{point.number, 0, 0}};
     pair.search    = number;
     pair.size      = size;
     pair.gap       = point.other.distance;
@@ -307,7 +305,7 @@ namespace akmon
     const bool same_side = spot.other.normal * normal > same_normal;
     if (!same_side)
       spot.other = {0., normal};
-    spot.number      = first_joined_slot + spots[reversed].size();
+    spot.number      = first_joined + spots[reversed].size();
     ContactPair pair = make_pair(reversed, spot, here, nodes, rigid_nodes);
     if (!same_side)
       {

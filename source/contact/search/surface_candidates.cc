@@ -16,10 +16,10 @@ namespace akmon
 
   namespace
   {
-    BoxGrid::Box
+    Box
     box_around(const Segment &corners, const double margin)
     {
-      BoxGrid::Box box{corners[0], corners[0]};
+      Box box{corners[0], corners[0]};
       for (const auto &corner : corners)
         box.include(corner);
       box.widen(margin);
@@ -94,7 +94,7 @@ namespace akmon
     settle_distances(moved);
     ++n_configurations;
     masters.clear();
-    std::vector<BoxGrid::Box> boxes; // by face
+    std::vector<Box> boxes; // by face
     boxes.reserve(fetched.size());
     for (const auto &message : fetched)
       {

@@ -212,7 +212,7 @@ namespace restart
   TEST_F(RefusedCheckpoint, of_another_format)
   {
     std::string content = file_content(newest);
-    const auto at       = content.find("\nformat 2\n");
+    const auto at       = content.find("\nformat 3\n");
     ASSERT_LT(at, 512u);
     content[at + 8] = '9';
     write_file(newest, content);

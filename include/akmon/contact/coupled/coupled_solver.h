@@ -33,7 +33,7 @@ namespace akmon
     /**
      * Take up the pairs of a step; those that cannot close in it get no force (collective).
      * @param pairs     referred to until the next call
-     * @param dx_free   free increments of the step, at all contact nodes
+     * @param dx_free   free increments of the step, at all contact nodes; the same
      * @param friction  mu of every pair
      */
     void
@@ -44,9 +44,7 @@ namespace akmon
 
     /// Take up the pairs of the step again after others have joined them (collective).
     void
-    take_up_anew(std::vector<ContactPair> &pairs,
-                 const ContactNodes::Field &dx_free,
-                 const std::vector<double> &friction);
+    take_up_anew(std::vector<ContactPair> &pairs, const std::vector<double> &friction);
 
     /// Whether any pair of the step may carry friction, the same on all ranks.
     bool
@@ -57,7 +55,7 @@ namespace akmon
 
     /// Forces for the pairs' target gaps, warm-started from those they have (collective).
     void
-    solve(const ContactNodes::Field &dx_free);
+    solve();
 
     /// Nodal increments that the last solution's forces cause, at all contact nodes.
     const ContactNodes::Field &
@@ -107,11 +105,9 @@ namespace akmon
     }
 
   private:
-    using Key = decltype(std::declval<const ContactPair &>().key());
-
     struct Island : ContactIsland
     {
-      Key key; ///< of its first pair
+      ContactPair::Key key; ///< of its first pair
       bool of_this_step = false;
       bool is_new       = false; ///< its solution, to the ranks of its pairs
     };
@@ -124,34 +120,27 @@ namespace akmon
     };
 
     void
-    choose_participants(std::vector<ContactPair> &pairs,
-                        const ContactNodes::Field &dx_free,
-                        const std::vector<double> &friction);
+    choose_participants(std::vector<ContactPair> &pairs, const std::vector<double> &friction);
     double
-    gap_after(const ContactPair &pair,
-              const ContactNodes::Field &dx_free,
-              const ContactNodes::Field *caused) const;
+    gap_after(const ContactPair &pair, const ContactNodes::Field *caused) const;
     double
-    tolerance_for(const ContactNodes::Field &dx_free) const;
+    tolerance_for() const;
     bool
-    activate(const ContactNodes::Field &dx_free,
-             const ContactNodes::Field *caused,
-             const double tolerance);
+    activate(const ContactNodes::Field *caused, const double tolerance);
     template <typename VisitNodes>
     UnitedSets
     unite(const unsigned int n_pairs, const std::size_t n_nodes, const VisitNodes &visit_nodes);
     void
-    divide_into_islands(const ContactNodes::Field &dx_free);
+    divide_into_islands();
     void
     collect_own_pairs();
     void
-    divide_own_pairs(const ContactNodes::Field &dx_free);
+    divide_own_pairs();
     bool
     is_bonded(const ContactPair &pair) const;
     void
     append_closing_pair(const unsigned int number,
                         const bool bonded,
-                        const ContactNodes::Field &dx_free,
                         std::vector<ClosingPair> &pairs) const;
     void
     divide_shared_pairs();
@@ -160,7 +149,7 @@ namespace akmon
     void
     take_target_gaps();
     void
-    solve_lone_pairs(const ContactNodes::Field &dx_free);
+    solve_lone_pairs();
     void
     solve_islands(const double tolerance);
     void
@@ -179,7 +168,8 @@ namespace akmon
     ContactIsland::Newton newton;
     NewtonLanes lanes;
 
-    std::vector<ContactPair *> all; ///< pairs that may close
+    const ContactNodes::Field *free_increments = nullptr; ///< of the step
+    std::vector<ContactPair *> all;                       ///< pairs that may close
     std::vector<double> friction_of_all;
     std::vector<bool> active; ///< by number in `all`
     double mass_factor = 1.;

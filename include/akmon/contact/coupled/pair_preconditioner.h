@@ -86,7 +86,7 @@ namespace akmon
     apply(const Vector &r, Vector &z);
 
   private:
-    using Key = decltype(std::declval<const ContactPair &>().key());
+    using Key = ContactPair::Key;
 
     // The free directions of a pair, in its frame.
     struct Directions

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <akmon/contact/search/box.h>
 #include <akmon/simd.h>
 
 #include <deal.II/base/tensor.h>
@@ -20,32 +21,6 @@ namespace akmon
   class BoxGrid
   {
   public:
-    struct Box
-    {
-      dealii::Tensor<1, 3> lower, upper; ///< length
-
-      void
-      include(const dealii::Tensor<1, 3> &point)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            lower[d] = std::min(lower[d], point[d]);
-            upper[d] = std::max(upper[d], point[d]);
-          }
-      }
-
-      /// By a margin on all sides; length
-      void
-      widen(const double margin)
-      {
-        for (unsigned int d = 0; d < 3; ++d)
-          {
-            lower[d] -= margin;
-            upper[d] += margin;
-          }
-      }
-    };
-
     /// Take up boxes instead of those there are.
     void
     reinit(std::vector<Box> new_boxes)

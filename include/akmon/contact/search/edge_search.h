@@ -216,6 +216,11 @@ namespace akmon
               const unsigned int slave,
               const unsigned int master,
               const EdgeCrossing &crossing) const;
+    ContactPair
+    make_line_pair(const ContactNodes::Field &x,
+                   const unsigned int slave,
+                   const unsigned int master,
+                   const EdgeCrossing &crossing) const;
     double
     margin_of_faces(const NodalVector &x) const;
     static std::vector<EdgeFace>

@@ -33,27 +33,19 @@ namespace akmon
   {
   public:
     /**
-     * @param faces          relevant faces of the surfaces that the body stops
-     * @param interface      number for its pairs
-     * @param first_feature  number of its first corner among those of all bodies
+     * @param faces      relevant faces of the surfaces that the body stops
+     * @param interface  number for its pairs
      */
     FeatureSearch(const Discretization &discretization,
                   const RigidBody &body,
                   const std::vector<BoundaryFace> &faces,
-                  const unsigned int interface,
-                  const unsigned int first_feature);
+                  const unsigned int interface);
 
     /// Whether there are features and faces; the same on all ranks.
     bool
     exists() const
     {
       return least_radius > 0.;
-    }
-
-    unsigned int
-    n_features() const
-    {
-      return features.vertices.size() + features.edges.size();
     }
 
     /// Distance over which partners are looked for; length. The same on all ranks.
@@ -292,7 +284,7 @@ namespace akmon
     const Discretization &discretization;
     const RigidBody &body;
     const std::vector<BoundaryFace> &surface_faces;
-    const unsigned int interface, first_feature;
+    const unsigned int interface;
     const SharpFeatures features;
     double least_radius = 0., search_radius = 0.;
 

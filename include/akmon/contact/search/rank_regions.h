@@ -30,7 +30,7 @@ namespace akmon
   private:
     struct Region
     {
-      BoxGrid::Box box;
+      Box box;
       unsigned int rank;
     };
 
