@@ -28,6 +28,9 @@ namespace akmon
     }
 
 
+    constexpr double coincident = 1e-12; // points closer than this, over the size of the shape
+
+
     double
     angle_between(const Tensor<1, 3> &a, const Tensor<1, 3> &b)
     {
@@ -158,13 +161,14 @@ namespace akmon
   }
 
 
-  // The distance of the triangle with the closest box, and a little for rounding.
+  // The distance of the triangle with the closest box, and enough for all that meet at the closest
+  // point.
   double
   TriangleShape::bound_of_distance(const Tensor<1, 3> &x) const
   {
     Tree::Entry first;
     tree->boxes.query(bgi::nearest(tree_point(x), 1), &first);
-    return (x - on_triangle(x, first.second).point).norm() * (1. + 1e-12) + 1e-14 * size;
+    return (x - on_triangle(x, first.second).point).norm() + 2. * coincident * size;
   }
 
 
@@ -193,7 +197,7 @@ namespace akmon
       }
     Tensor<1, 3> normal;
     for (const auto &near : neighbours)
-      if ((near.at.point - best).norm() <= 1e-12 * size)
+      if ((near.at.point - best).norm() <= coincident * size)
         {
           const auto n = mesh.normal(mesh.triangles[near.triangle]);
           normal += (near.at.angle / n.norm()) * n;
@@ -221,9 +225,8 @@ namespace akmon
     for (const auto &near : neighbours)
       least = std::min(least, (x - near.at.point).norm());
     // Who is further away than the box tells, or deep inside by mistake, looks further.
-    SurfacePoint nearest = least * (1. + 1e-12) + 1e-14 * size <= within ?
-                             closest_among(x, neighbours) :
-                             closest(x);
+    SurfacePoint nearest = least + 2. * coincident * size <= within ? closest_among(x, neighbours) :
+                                                                      closest(x);
     nearest.distance *= side;
     nearest.normal *= side;
     if (nearest.distance > within)
