@@ -1,4 +1,5 @@
 #include <akmon/case.h>
+#include <akmon/idle_parameters.h>
 #include <akmon/parameter_errors.h>
 #include <akmon/parameter_reference.h>
 #include <akmon/parameters.h>
@@ -306,6 +307,7 @@ namespace akmon
       std::ostringstream as_used;
       prm.print_parameters(as_used, ParameterHandler::PRM);
       result.as_used = as_used.str();
+      result.idle    = idle_parameters(prm);
       return result;
     }
   } // namespace

@@ -16,24 +16,6 @@ namespace akmon
   {
     using Tree = boost::property_tree::ptree;
 
-    // A section or entry as it is declared: ParameterHandler writes what is neither letter nor
-    // digit as an underscore and two hexadecimal digits.
-    std::string
-    demangle(const std::string &name)
-    {
-      std::string result;
-      for (std::size_t i = 0; i < name.size(); ++i)
-        if (name[i] == '_' && i + 2 < name.size())
-          {
-            result += static_cast<char>(std::stoi(name.substr(i + 1, 2), nullptr, 16));
-            i += 2;
-          }
-        else
-          result += name[i];
-      return result;
-    }
-
-
     std::string
     replace_all(std::string text, const std::string &from, const std::string &to)
     {
@@ -96,12 +78,12 @@ namespace akmon
           out << "\n| key | default | allowed | meaning |\n|---|---|---|---|\n";
           for (const auto &[name, child] : section)
             if (is_entry(child))
-              print_entry(demangle(name), child, out);
+              print_entry(name, child, out);
         }
       for (const auto &[name, child] : section)
         if (!is_entry(child))
           {
-            const std::string below = (path.empty() ? "" : path + "/") + demangle(name);
+            const std::string below = (path.empty() ? "" : path + "/") + name;
             out << "\n" << std::string(depth + 2, '#') << " " << below << "\n";
             print_section(below, depth + 1, child, out);
           }
@@ -112,11 +94,10 @@ namespace akmon
     print_contents(const Tree &tree, std::ostream &out)
     {
       out << "\n";
-      for (const auto &[name, child] : tree)
+      for (const auto &[section, child] : tree)
         if (!is_entry(child))
           {
-            const std::string section = demangle(name);
-            std::string anchor        = replace_all(section, " ", "-");
+            std::string anchor = replace_all(section, " ", "-");
             std::transform(anchor.begin(), anchor.end(), anchor.begin(), [](const char c) {
               return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
             });

@@ -87,7 +87,8 @@ namespace akmon
     Plausibility::Plausibility(const Case &parameters,
                                const Discretization &discretization,
                                const NodalVector &velocity)
-      : parameters(parameters)
+      : warnings(parameters.idle)
+      , parameters(parameters)
       , discretization(discretization)
       , comm(discretization.communicator())
     {
@@ -221,7 +222,7 @@ namespace akmon
 
 
     // Contacts whose surfaces are further apart than anything can move until the end. Only where
-    // nothing but the initial velocities moves the bodies.
+    // nothing but the initial velocities moves the bodies: no tool pushes them either.
     void
     Plausibility::check_contacts(const NodalVector &velocity)
     {
@@ -230,6 +231,11 @@ namespace akmon
         fastest = std::max(fastest, body.speed);
       if (!parameters.body_force.acceleration.identically_zero() ||
           !parameters.surface_loads.empty() ||
+          std::any_of(parameters.obstacles.begin(),
+                      parameters.obstacles.end(),
+                      [](const auto &obstacle) {
+                        return obstacle.motion != Obstacle::Motion::fixed;
+                      }) ||
           std::any_of(parameters.prescribed_motions.begin(),
                       parameters.prescribed_motions.end(),
                       [](const auto &motion) {
@@ -258,7 +264,7 @@ namespace akmon
       for (const auto &obstacle : parameters.obstacles)
         {
           // Of a box's points a corner is closest to a plane; other shapes are nearby anyway.
-          if (obstacle.motion != Obstacle::Motion::fixed || std::isfinite(obstacle.shape->radius()))
+          if (std::isfinite(obstacle.shape->radius()))
             continue;
           const Extent surface = extent_of_surfaces("Obstacles/" + obstacle.name,
                                                     "Surfaces",

@@ -38,7 +38,8 @@ namespace akmon
     OutputParameters output;
     CheckpointParameters checkpoint;
     PartitionParameters partition;
-    std::string as_used; ///< every parameter, in the form of a prm file
+    std::string as_used;           ///< every parameter, in the form of a prm file
+    std::vector<std::string> idle; ///< a line for each parameter that was set in vain
 
     /**
      * Read a prm file, then the overrides "Section/Sub/Key=value".

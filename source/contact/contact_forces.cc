@@ -125,12 +125,28 @@ namespace akmon
   }
 
 
+  namespace
+  {
+    // How far a point comes in the frame of a rigid body: no distance to it changes by more.
+    double
+    way_in_frame(const Pose &from, const Pose &to, const Tensor<1, 3> &x_0, const Tensor<1, 3> &x_1)
+    {
+      return ((x_1 - to.place) * to.orientation.matrix() -
+              (x_0 - from.place) * from.orientation.matrix())
+        .norm();
+    }
+  } // namespace
+
+
   // What is left of penetrations into obstacles that forces do not move, after the solution: taken
-  // away node by node, exactly, along the pair's normal.
+  // away node by node, exactly, along the pair's normal. Distances to closed surfaces are dear:
+  // they are measured only where the way is longer than the gap, and again where a node has been
+  // moved.
   void
   Contact::push_out(const NodalState &state, const double effective_mass_factor)
   {
     constexpr unsigned int most_rounds = 8;
+    constexpr double rounding          = 1e-6;
 
     std::vector<ContactPair *> candidates;
     for (auto &pair : pairs)
@@ -149,12 +165,17 @@ namespace akmon
     else
       add_response(effective_mass_factor, x_reached);
 
-    for (unsigned int round = 0; round < most_rounds; ++round)
+    std::vector<unsigned int> pushed;
+    for (unsigned int round = 0; round < most_rounds && !candidates.empty(); ++round)
       {
-        bool pushed = false;
+        pushed.clear();
         for (ContactPair *const pair : candidates)
           {
-            const unsigned int node = pair->nodes[0];
+            const unsigned int node = pair->nodes[0], body = pair->interface - contacts.size();
+            if (pair->gap >
+                way_in_frame(bodies[body].pose(), poses[body], x[node], x_reached[node]) +
+                  rounding * pair->size)
+              continue;
             double reached;
             reached_gap(*pair, poses, reached);
             const double lacking = std::min(0., pair->gap + release(*pair, state)) - reached;
@@ -164,10 +185,17 @@ namespace akmon
               continue;
             pair->normal_force += lacking / along;
             x_reached.add(node, (lacking / along) * response);
-            pushed = true;
+            pushed.push_back(node);
           }
-        if (!pushed)
-          break;
+        std::sort(pushed.begin(), pushed.end());
+        candidates.erase(std::remove_if(candidates.begin(),
+                                        candidates.end(),
+                                        [&](const ContactPair *const pair) {
+                                          return !std::binary_search(pushed.begin(),
+                                                                     pushed.end(),
+                                                                     pair->nodes[0]);
+                                        }),
+                         candidates.end());
       }
   }
 

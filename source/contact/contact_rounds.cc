@@ -324,7 +324,7 @@ namespace akmon
         if (pair->normal_force > 0. || linear + curvature < allowed)
           {
             largest = std::max(largest, excess);
-            if (excess > 1. && !pair->of_edges && pair->interface < contacts.size())
+            if (excess > 1. && pair->kind == ContactPair::Kind::node_to_face)
               unsettled.push_back(pair);
           }
         pair->settled = excess <= 1.;

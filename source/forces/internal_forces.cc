@@ -202,8 +202,7 @@ namespace akmon
           cell = update_stress_and_force<integration == CellIntegration::mean_dilatation>(
             law, positions, increments, owned, state, batches.state_at(next), sums, forces);
 
-        // A comparison with NaN is false: this finds inverted and non-finite cells.
-        const auto valid = cell.smallest_jacobian > Lanes(0.);
+        const auto valid = cell.is_valid();
         if (!xsimd::all(valid))
           {
             remove_invalid(x, batches, batch, valid);

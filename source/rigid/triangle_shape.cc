@@ -4,6 +4,7 @@
 #include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/geometry/strategies/strategies.hpp>
+#include <boost/iterator/function_output_iterator.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,9 @@ namespace akmon
     {
       return TreePoint(x[0] + shift, x[1] + shift, x[2] + shift);
     }
+
+
+    constexpr double coincident = 1e-12; // points closer than this, over the size of the shape
 
 
     double
@@ -134,54 +138,70 @@ namespace akmon
   }
 
 
-  void
-  TriangleShape::collect(const Tensor<1, 3> &x,
-                         const double within,
-                         std::vector<unsigned int> &triangles) const
+  TrianglePoint
+  TriangleShape::on_triangle(const Tensor<1, 3> &x, const unsigned int triangle) const
   {
-    triangles.clear();
+    const auto &t = mesh.triangles[triangle];
+    return closest_on_triangle(x, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
+  }
+
+
+  void
+  TriangleShape::collect(const Tensor<1, 3> &x, const double within, Neighbours &neighbours) const
+  {
+    neighbours.clear();
     const TreeBox box(tree_point(x, -within), tree_point(x, within));
-    for (auto it = tree->boxes.qbegin(bgi::intersects(box)); it != tree->boxes.qend(); ++it)
-      triangles.push_back(it->second);
-    std::sort(triangles.begin(), triangles.end());
+    tree->boxes.query(bgi::intersects(box),
+                      boost::make_function_output_iterator([&](const Tree::Entry &entry) {
+                        neighbours.push_back({entry.second, on_triangle(x, entry.second)});
+                      }));
+    std::sort(neighbours.begin(), neighbours.end(), [](const Near &a, const Near &b) {
+      return a.triangle < b.triangle;
+    });
+  }
+
+
+  // The distance of the triangle with the closest box, and enough for all that meet at the closest
+  // point.
+  double
+  TriangleShape::bound_of_distance(const Tensor<1, 3> &x) const
+  {
+    Tree::Entry first;
+    tree->boxes.query(bgi::nearest(tree_point(x), 1), &first);
+    return (x - on_triangle(x, first.second).point).norm() + 2. * coincident * size;
   }
 
 
   SurfacePoint
   TriangleShape::closest(const Tensor<1, 3> &x) const
   {
-    const auto on_triangle = [&](const unsigned int i) {
-      const auto &t = mesh.triangles[i];
-      return closest_on_triangle(x, mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]);
-    };
-    // The triangle with the closest box bounds the distance.
-    const auto first   = tree->boxes.qbegin(bgi::nearest(tree_point(x), 1));
-    const double bound = (x - on_triangle(first->second).point).norm();
-    std::vector<unsigned int> candidates;
-    collect(x, bound * (1. + 1e-12) + 1e-14 * size, candidates);
+    Neighbours neighbours;
+    collect(x, bound_of_distance(x), neighbours);
+    return closest_among(x, neighbours);
+  }
 
+
+  SurfacePoint
+  TriangleShape::closest_among(const Tensor<1, 3> &x, const Neighbours &neighbours) const
+  {
     Tensor<1, 3> best;
     double least = std::numeric_limits<double>::max();
-    for (const unsigned int i : candidates)
+    for (const auto &near : neighbours)
       {
-        const auto point      = on_triangle(i).point;
-        const double distance = (x - point).norm();
+        const double distance = (x - near.at.point).norm();
         if (distance < least)
           {
             least = distance;
-            best  = point;
+            best  = near.at.point;
           }
       }
     Tensor<1, 3> normal;
-    for (const unsigned int i : candidates)
-      {
-        const auto at = on_triangle(i);
-        if ((at.point - best).norm() <= 1e-12 * size)
-          {
-            const auto n = mesh.normal(mesh.triangles[i]);
-            normal += (at.angle / n.norm()) * n;
-          }
-      }
+    for (const auto &near : neighbours)
+      if ((near.at.point - best).norm() <= coincident * size)
+        {
+          const auto n = mesh.normal(mesh.triangles[near.triangle]);
+          normal += (near.at.angle / n.norm()) * n;
+        }
     normal /= normal.norm();
     const double side = (x - best) * normal < 0. ? -1. : 1.;
     // Too close for a direction of its own.
@@ -199,14 +219,14 @@ namespace akmon
   {
     constexpr double tolerated = 1e-3; // of the reach: what may already have been entered
 
-    std::vector<unsigned int> candidates;
-    collect(x, within, candidates);
-    if (candidates.empty())
-      {
-        if (side * closest(x).distance > 0.) // far outside, or deep inside by mistake?
-          return;
-      }
-    SurfacePoint nearest = closest(x);
+    Neighbours neighbours;
+    collect(x, within, neighbours);
+    double least = std::numeric_limits<double>::max();
+    for (const auto &near : neighbours)
+      least = std::min(least, (x - near.at.point).norm());
+    // Who is further away than the box tells, or deep inside by mistake, looks further.
+    SurfacePoint nearest = least + 2. * coincident * size <= within ? closest_among(x, neighbours) :
+                                                                      closest(x);
     nearest.distance *= side;
     nearest.normal *= side;
     if (nearest.distance > within)
@@ -220,16 +240,14 @@ namespace akmon
         return (mesh.vertices[v] - foot) * nearest.normal > 1e-9 * size;
       });
     };
-    for (const unsigned int i : candidates)
+    for (const auto &[i, at] : neighbours)
       {
+        if (!at.interior)
+          continue;
         const auto &t         = mesh.triangles[i];
         const auto n          = mesh.normal(t) * (side / mesh.normal(t).norm());
-        const auto at         = closest_on_triangle(x,
-                                            mesh.vertices[t[0]],
-                                            mesh.vertices[t[1]],
-                                            mesh.vertices[t[2]]);
         const double distance = (x - at.point) * n;
-        if (!at.interior || distance > within || distance < -tolerated * within || !rises_above(t))
+        if (distance > within || distance < -tolerated * within || !rises_above(t))
           continue;
         if (std::none_of(parts.begin() + first, parts.end(), [&](const SurfacePoint &part) {
               return part.normal * n > 1. - 1e-9;

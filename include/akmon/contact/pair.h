@@ -152,11 +152,11 @@ namespace akmon
       return of_node() || of_edges();
     }
 
-    /// Whether the step leads past the edges of its face, where its gap may tell nothing.
+    /// Whether the step leads a slave past the edges of its face, where the gap may tell nothing.
     bool
     may_enter() const
     {
-      return lost || (shares_corner && wanders);
+      return kind == Kind::node_to_face && (lost || (shares_corner && wanders));
     }
 
     void

@@ -275,6 +275,18 @@ namespace akmon
   {
     N strain_squared;    ///< largest E_mid : E_mid over the Gauss points
     N smallest_jacobian; ///< not positive, or not a number, where the cell cannot be computed
+
+    /**
+     * Per lane, whether the cell has come through the step: not inside out, and no number lost (a
+     * comparison with NaN is false). A cell that has turned inside out along two axes at once has
+     * positive Jacobians again; but no stretch of an axis, however large, reaches
+     * E_mid = 2 (U - 1)/(U + 1) = 2, and only what passes through itself is beyond.
+     */
+    auto
+    is_valid() const
+    {
+      return smallest_jacobian > N(0.) && strain_squared < N(4.);
+    }
   };
 
 

@@ -3,10 +3,21 @@
 #include <akmon/rigid/rigid_shape.h>
 #include <akmon/rigid/triangle_mesh.h>
 
+#include <boost/container/small_vector.hpp>
+
 #include <memory>
 
 namespace akmon
 {
+  /// Where a point is closest to a triangle.
+  struct TrianglePoint
+  {
+    dealii::Tensor<1, 3> point;
+    double angle;  ///< of the triangle around the point: 2 pi inside, pi on edges, less at corners
+    bool interior; ///< neither on an edge nor at a corner
+  };
+
+
   /**
    * The solid within a closed surface of triangles, in the frame of its vertices. What is inside is
    * told by the angle-weighted normals of the triangles at the closest point (Baerentzen and
@@ -61,11 +72,25 @@ namespace akmon
   private:
     struct Tree;
 
-    /// Triangles whose box is within a distance of x.
+    /// A triangle near a point, and where it is closest.
+    struct Near
+    {
+      unsigned int triangle;
+      TrianglePoint at;
+    };
+    using Neighbours = boost::container::small_vector<Near, 64>;
+
+    /// Triangles whose box is within a distance of x, in the order of their numbers.
     void
-    collect(const dealii::Tensor<1, 3> &x,
-            const double within,
-            std::vector<unsigned int> &triangles) const;
+    collect(const dealii::Tensor<1, 3> &x, const double within, Neighbours &neighbours) const;
+
+    /// Bound of the distance of x, such that all triangles there are within it.
+    double
+    bound_of_distance(const dealii::Tensor<1, 3> &x) const;
+    SurfacePoint
+    closest_among(const dealii::Tensor<1, 3> &x, const Neighbours &neighbours) const;
+    TrianglePoint
+    on_triangle(const dealii::Tensor<1, 3> &x, const unsigned int triangle) const;
     void
     nearby_from(const double side,
                 const dealii::Tensor<1, 3> &x,
@@ -94,14 +119,6 @@ namespace akmon
     std::unique_ptr<Tree> tree;
   };
 
-
-  /// Where a point is closest to a triangle.
-  struct TrianglePoint
-  {
-    dealii::Tensor<1, 3> point;
-    double angle;  ///< of the triangle around the point: 2 pi inside, pi on edges, less at corners
-    bool interior; ///< neither on an edge nor at a corner
-  };
 
   /// Closest point of a triangle (Ericson, Real-Time Collision Detection, 2005, section 5.1.5).
   TrianglePoint

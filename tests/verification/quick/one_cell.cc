@@ -40,6 +40,13 @@ namespace one_cell
     void
     go_to(const Matrix &F)
     {
+      attempt(F);
+      EXPECT_FALSE(forces.fault().occurred());
+    }
+
+    void
+    attempt(const Matrix &F)
+    {
       for (unsigned int node = 0; node < 8; ++node)
         {
           const Vector target = F * at_node(discretization.reference, node);
@@ -51,7 +58,6 @@ namespace one_cell
         }
       force = 0.;
       forces.update(x, dx, force);
-      EXPECT_FALSE(forces.fault().occurred());
     }
 
     void
@@ -240,6 +246,26 @@ namespace one_cell
     const double order = std::log2(error(10) / error(20));
     report("order under stretch and turn", order);
     EXPECT_NEAR(order, 2., 0.05);
+  }
+
+
+  TEST_P(OneCell, InsideOutIsFoundAlongTwoAxesAtOnceToo)
+  {
+    // The Jacobian of the last three is positive; in the last one the middle configuration is flat.
+    for (const Matrix &F : {diagonal(-.5, 1., 1.),
+                            diagonal(-.5, -.6, 1.),
+                            diagonal(1., -2., -.9),
+                            diagonal(-1., 1., -1.)})
+      {
+        DrivenCell cell(GetParam());
+        cell.attempt(F);
+        EXPECT_TRUE(cell.forces.fault().occurred()) << F;
+      }
+    // What is far beyond any step of a run is not.
+    DrivenCell stretched(GetParam());
+    stretched.go_to(diagonal(3., 3., 3.));
+    DrivenCell flattened(GetParam());
+    flattened.go_to(diagonal(.05, 1.5, 1.5));
   }
 
 

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
+
 #include "support/run_directory.h"
 
 // What looks like a mistake is told once at the start; the shipped cases have none.
@@ -82,11 +84,80 @@ namespace plausibility
                            "one_cell",
                            {"Body force/Acceleration=0; 0; -9.81"},
                            "body 'cell' falls for ever"},
+                    Oddity{"yield_stress_of_an_elastic_law",
+                           "taylor_bar_quarter",
+                           {"Materials/copper/Law=hypoelastic",
+                            "Materials/copper/Hardening modulus=0"},
+                           "[Materials/copper] Yield stress = 400e6 has no effect: it needs "
+                           "[Materials/copper] Law = j2"},
+                    Oddity{"motion_of_a_fixed_tool",
+                           "rounded_punch",
+                           {"Obstacles/punch/Motion=fixed"},
+                           "[Obstacles/punch/Prescribed] Displacement = "},
+                    Oddity{"strength_of_what_only_touches",
+                           "two_bars",
+                           {"Contact/interface/Shear strength=1e6"},
+                           "[Contact/interface] Shear strength = 1e6 has no effect"},
+                    Oddity{"radius_of_a_box",
+                           "one_cell",
+                           {"Bodies/cell/Sphere/Radius=2"},
+                           "[Bodies/cell/Sphere] Radius = 2 has no effect: it needs [Bodies/cell] "
+                           "Shape = sphere"},
+                    Oddity{"penalty_scale_of_exact_contact",
+                           "two_bars",
+                           {"Contact solver/Penalty scale=1"},
+                           "[Contact solver] Penalty scale = 1 has no effect"},
                     Oddity{"probe_beside_the_body",
                            "two_bars",
                            {"Probes/left_face/Point=0.05, 0, 0"},
                            "probe 'left_face' lies outside body 'left'"}),
     [](const auto &info) { return info.param.name; });
+
+
+  // A tool may push a body at rest against what is out of its own reach.
+  TEST(Plausible, what_a_tool_pushes)
+  {
+    const ScratchDirectory scratch;
+    const std::string file = scratch.path + "/pushed.prm";
+    std::ofstream(file) << R"(
+      subsection Time
+        set End = 0.1
+      end
+      subsection Materials
+        set Names = rubber
+        subsection rubber
+          set Density         = 1000
+          set Young's modulus = 1e6
+        end
+      end
+      subsection Bodies
+        set Names = block
+        subsection block
+          set Material = rubber
+        end
+      end
+      subsection Obstacles
+        set Names = floor, ram
+        subsection floor
+          set Surfaces = block:z-
+          set Point    = 0, 0, -0.51
+        end
+        subsection ram
+          set Surfaces = block:z+
+          set Shape    = box
+          set Point    = 0, 0, 1.01
+          set Motion   = prescribed
+          subsection Prescribed
+            set Velocity = 0; 0; -1
+          end
+        end
+      end)";
+    const auto pushed = run_program({"--validate", file});
+    EXPECT_EQ(pushed.output, file + " is valid\n");
+    const auto alone = run_program({"--validate", file, "--set", "Obstacles/ram/Motion=fixed"});
+    EXPECT_NE(alone.output.find("obstacle 'floor' can never be touched"), std::string::npos)
+      << alone.output;
+  }
 
 
   TEST(ShippedCases, are_plausible)
