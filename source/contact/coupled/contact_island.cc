@@ -194,8 +194,14 @@ namespace akmon
     Newton::Result best_result  = result;
     unsigned int n_applications = result.n_applications;
     problem.limit               = limit;
+    result = newton.follow_compliance(problem, delassus, preconditioner, tau, faces);
+    n_applications += result.n_applications;
+    if (!result.converged)
+      tau = best;
     for (const bool from_zero : {false, true})
       {
+        if (result.converged)
+          break;
         if (from_zero)
           tau.assign(tau.size(), {});
         sweep(delassus.matrix(), problem, n_sweeps, tau);
@@ -206,13 +212,12 @@ namespace akmon
           }
         result = newton.solve(problem, delassus, preconditioner, tau, faces);
         n_applications += n_sweeps + result.n_applications;
-        if (result.converged)
-          break;
       }
     if (!result.converged)
       {
-        tau    = best;
-        result = best_result;
+        tau              = best;
+        result           = best_result;
+        result.converged = result.residual <= problem.sufficient;
       }
     result.n_applications = n_applications;
   }
