@@ -22,8 +22,9 @@ namespace akmon
     problem.start_is_reference = false;
     mass_factor                = effective_mass_factor;
     has_bonds                  = bonds != nullptr;
-    if (!has_bonds && (members.size() <= most_assembled ||
-                       (members.size() <= most_swept && has_rigid_bodies(first_common_id))))
+    if (!has_bonds &&
+        (members.size() <= most_assembled ||
+         (members.size() <= most_of_rigid_bodies && has_rigid_bodies(first_common_id))))
       assemble();
     else
       {
@@ -140,7 +141,7 @@ namespace akmon
     problem.start_is_reference = true; // of the next gaps of the same step
     if (!result.converged && !problem.rubs())
       solve_one_by_one();
-    else if (!result.converged && !has_bonds && members.size() <= most_swept)
+    else if (!result.converged && !has_bonds && members.size() <= most_restarted)
       start_elsewhere(parameters.limit, newton);
     if (!result.converged && problem.rubs() && result.residual > nearly &&
         largest_overlap() > problem.sufficient)

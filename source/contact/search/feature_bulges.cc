@@ -283,7 +283,7 @@ namespace akmon
         const double length = stretch[1] - stretch[0];
         const double gap    = gap_over(reached.x, line.a + place.s * line.u, f);
         if (gap >= -unseen || sees(place, around * length) ||
-            gap >= gap_at_ends(reached.x, line, place, stretch) - unseen)
+            gap >= std::max(-unseen, gap_at_ends(reached.x, line, place, stretch)) - unseen)
           continue;
         place.part = std::min(n_parts - 1,
                               static_cast<unsigned int>(n_parts * (place.s - stretch[0]) / length));
