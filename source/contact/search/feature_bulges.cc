@@ -214,7 +214,7 @@ namespace akmon
     const auto gap = [&](const double s) {
       return gap_over(x, line.a + s * line.u, place.partner);
     };
-    return gap(place.s) < std::min({0., gap(stretch[0]), gap(stretch[1])}) -
+    return gap(place.s) < std::min(gap(stretch[0]), gap(stretch[1])) -
                             least * surface.get_faces()[place.partner].size;
   }
 
