@@ -20,7 +20,7 @@ namespace akmon
   {
     // Of the solver's tolerance: for the gaps that features of rigid bodies reach, and for what is
     // between them, where pairs that tell less would only repeat others.
-    constexpr double of_features = 0.5, of_bulges = 2.;
+    constexpr double of_features = 0.5, of_bulges = 4.;
   } // namespace
 
 
