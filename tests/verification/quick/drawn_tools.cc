@@ -119,10 +119,10 @@ end
     List arguments = {scratch.path + "/slab.prm"};
     for (const auto &key : draw.keys)
       arguments.insert(arguments.end(), {"--set", key});
-    for (const std::string key : {"Obstacles/tool/Friction coefficient=" + draw.friction,
-                                  "Output directory=" + scratch.path,
-                                  std::string("Output/History steps=1"),
-                                  std::string("Output/Fields interval=0")})
+    for (const std::string &key : {"Obstacles/tool/Friction coefficient=" + draw.friction,
+                                   "Output directory=" + scratch.path,
+                                   std::string("Output/History steps=1"),
+                                   std::string("Output/Fields interval=0")})
       arguments.insert(arguments.end(), {"--set", key});
     const auto result = run_program(arguments);
     ASSERT_EQ(result.status, 0) << result.output;
