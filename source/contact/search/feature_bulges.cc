@@ -209,7 +209,7 @@ namespace akmon
                            const Record &place,
                            const std::array<double, 2> &stretch) const
   {
-    constexpr double least = 2e-10; // of the face's size
+    constexpr double least = 4e-10; // of the face's size
 
     const auto gap = [&](const double s) {
       return gap_over(x, line.a + s * line.u, place.partner);
