@@ -18,9 +18,9 @@ namespace akmon
 
   namespace
   {
-    // Of the solver's tolerance: for the gaps that features of rigid bodies reach, and as much for
-    // what is between them.
-    constexpr double of_features = 0.5;
+    // Of the solver's tolerance: for the gaps that features of rigid bodies reach, and for what is
+    // between them, where pairs that tell less would only repeat others.
+    constexpr double of_features = 0.5, of_bulges = 4.;
   } // namespace
 
 
@@ -32,7 +32,8 @@ namespace akmon
     constexpr unsigned int most_rounds = 40;
     constexpr unsigned int unsettled   = 10; // rounds after which edges are followed all the same
     constexpr unsigned int until_refit = 6;
-    constexpr double touch_anew        = std::numeric_limits<double>::infinity();
+    constexpr unsigned int most_with_moves = 8; // of pairs of edges; later ones only join
+    constexpr double touch_anew            = std::numeric_limits<double>::infinity();
 
     coupled->solve();
     if (searches.empty() && bodies.empty())
@@ -53,10 +54,8 @@ namespace akmon
         double excess = on_all[0];
         if ((excess <= 1. || round % unsettled == 0) && (has_edges || on_all[1] > 0.))
           {
-            const auto bulges = follow_bulges(poses);
-            joining.insert(joining.end(), bulges.begin(), bulges.end());
-            excess = Utilities::MPI::max(joining.empty() ? excess : touch_anew,
-                                         discretization.communicator());
+            const bool any = follow_bulges(poses, round <= most_with_moves, joining);
+            excess = Utilities::MPI::max(any ? touch_anew : excess, discretization.communicator());
           }
         if (excess <= 1.)
           return;
@@ -126,26 +125,32 @@ namespace akmon
   }
 
 
-  // Pairs for what edges are in faces deeper than the settled pairs tell.
-  std::vector<ContactPair>
-  Contact::follow_bulges(const std::vector<Pose> &poses)
+  // Pairs for what edges are in faces deeper than the settled pairs tell. Whether there are any, or
+  // some have moved.
+  bool
+  Contact::follow_bulges(const std::vector<Pose> &poses,
+                         const bool may_move,
+                         std::vector<ContactPair> &joining)
   {
-    std::vector<ContactPair> joining;
+    const std::size_t before = joining.size();
+    bool any                 = false;
     for (unsigned int i = 0; i < bodies.size(); ++i)
       {
         const unsigned int first = nodes.first_common() + rigid_nodes.first[i];
-        feature_searches[i].join_bulges({x, dx, first, 0.},
-                                        {x_reached, dx_reached, first, 0.},
-                                        poses[i],
-                                        pairs,
-                                        of_features * solver.tolerance,
-                                        joining);
+        any                      = feature_searches[i].join_bulges({x, dx, first, 0.},
+                                              {x_reached, dx_reached, first, 0.},
+                                              poses[i],
+                                              of_bulges * solver.tolerance,
+                                              may_move,
+                                              pairs,
+                                              joining) ||
+              any;
       }
     for (const auto &search : edge_searches)
       search.join_dips(x, x_reached, dx_reached, pairs, joining);
     for (const auto &search : searches)
       search.join_entering(x, x_reached, dx_reached, pairs, joining);
-    return joining;
+    return any || joining.size() > before;
   }
 
 

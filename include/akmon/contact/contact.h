@@ -266,8 +266,10 @@ namespace akmon
     reach();
     std::vector<ContactPair>
     follow_touches(const std::vector<Pose> &poses);
-    std::vector<ContactPair>
-    follow_bulges(const std::vector<Pose> &poses);
+    bool
+    follow_bulges(const std::vector<Pose> &poses,
+                  const bool may_move,
+                  std::vector<ContactPair> &joining);
     double
     follow_partners(const NodalState &state,
                     const std::vector<Pose> &poses,

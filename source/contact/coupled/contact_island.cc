@@ -22,8 +22,9 @@ namespace akmon
     problem.start_is_reference = false;
     mass_factor                = effective_mass_factor;
     has_bonds                  = bonds != nullptr;
-    if (!has_bonds && (members.size() <= most_assembled ||
-                       (members.size() <= most_swept && has_rigid_bodies(first_common_id))))
+    if (!has_bonds &&
+        (members.size() <= most_assembled ||
+         (members.size() <= most_of_rigid_bodies && has_rigid_bodies(first_common_id))))
       assemble();
     else
       {
@@ -141,7 +142,7 @@ namespace akmon
     problem.start_is_reference = true; // of the next gaps of the same step
     if (!result.converged && !problem.rubs())
       solve_one_by_one();
-    else if (!result.converged && !has_bonds && members.size() <= most_swept)
+    else if (!result.converged && !has_bonds && members.size() <= most_restarted)
       start_elsewhere(parameters.limit, newton);
     if (!result.converged && problem.rubs() && result.residual > nearly &&
         largest_overlap() > problem.sufficient)
@@ -195,8 +196,14 @@ namespace akmon
     Newton::Result best_result  = result;
     unsigned int n_applications = result.n_applications;
     problem.limit               = limit;
+    result = newton.follow_compliance(problem, delassus, preconditioner, tau, faces);
+    n_applications += result.n_applications;
+    if (!result.converged)
+      tau = best;
     for (const bool from_zero : {false, true})
       {
+        if (result.converged)
+          break;
         if (from_zero)
           tau.assign(tau.size(), {});
         sweep(delassus.matrix(), problem, n_sweeps, tau);
@@ -207,13 +214,12 @@ namespace akmon
           }
         result = newton.solve(problem, delassus, preconditioner, tau, faces);
         n_applications += n_sweeps + result.n_applications;
-        if (result.converged)
-          break;
       }
     if (!result.converged)
       {
-        tau    = best;
-        result = best_result;
+        tau              = best;
+        result           = best_result;
+        result.converged = result.residual <= problem.sufficient;
       }
     result.n_applications = n_applications;
   }

@@ -39,14 +39,6 @@ namespace akmon
 
 
   double
-  sag_over(const StraightEdge &edge, const Segment &corners, const std::array<double, 2> &stretch)
-  {
-    const auto gap = [&](const double s) { return gap_over(edge.at(s), corners); };
-    return 0.5 * (gap(stretch[0]) + gap(stretch[1])) - gap(0.5 * (stretch[0] + stretch[1]));
-  }
-
-
-  double
   closest_between(const StraightEdge &edge, const Segment &corners, double low, double high)
   {
     const auto slope = [&](const double s) {

@@ -107,25 +107,20 @@ namespace akmon
       pair.entered       = true;
       pair.shares_corner = partner.projection.feature == Projection::Feature::face;
       pair.curvature     = gap - pair.gap - pair.normal * pair.relative(increments);
-      const auto known   = [&]() {
-        return std::lower_bound(pairs.begin(), pairs.end(), pair, [](const auto &a, const auto &b) {
-          return a.key() < b.key();
-        });
-      };
-      for (auto same = known(); same != pairs.end() && same->key() == pair.key(); same = known())
+      for (auto same = find_pair(pairs, pair.key()); same != pairs.end();
+           same      = find_pair(pairs, pair.key()))
         {
-          if (same->face == pair.face && same->shares_corner == pair.shares_corner)
+               if (same->face == pair.face && same->shares_corner == pair.shares_corner)
             {
-              joining.pop_back();
-              return;
+                   joining.pop_back();
+                   return;
             }
           ++pair.slot;
         }
     };
     std::vector<unsigned int> entering = watched;
     for (const auto &pair : pairs)
-      if (pair.may_enter() && pair.search == number && pair.interface == interface &&
-          !pair.of_edges)
+      if (pair.may_enter() && pair.search == number)
         entering.push_back(pair.row);
     std::sort(entering.begin(), entering.end());
     entering.erase(std::unique(entering.begin(), entering.end()), entering.end());

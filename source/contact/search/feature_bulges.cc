@@ -10,6 +10,30 @@ namespace akmon
 {
   using namespace dealii;
 
+  namespace
+  {
+    // Pairs of an edge and a face to begin with; each sees what is around it, in parts of the edge
+    // over the face.
+    constexpr unsigned int n_parts = 3;
+    constexpr double around        = 0.25;
+
+
+    // The pair with the same key; the end if there is none.
+    template <typename Pairs>
+    auto
+    find_pair(Pairs &pairs, const ContactPair &pair)
+    {
+      const auto found = std::lower_bound(pairs.begin(),
+                                          pairs.end(),
+                                          pair,
+                                          [](const ContactPair &a, const ContactPair &b) {
+                                            return a.key() < b.key();
+                                          });
+      return found != pairs.end() && found->key() == pair.key() ? found : pairs.end();
+    }
+  } // namespace
+
+
   // The part of an edge that is above a face; false if there is none.
   bool
   FeatureSearch::stretch_over(const ContactNodes::Field &x,
@@ -30,17 +54,6 @@ namespace akmon
   }
 
 
-  // How far the middle of an edge over a face is closer to it than its ends are in the mean.
-  double
-  FeatureSearch::sag_over(const ContactNodes::Field &x,
-                          const Line &line,
-                          const unsigned int face,
-                          const std::array<double, 2> &stretch) const
-  {
-    return akmon::sag_over({line.a, line.u}, surface.segment(x, face), stretch);
-  }
-
-
   // A lower bound of the gap along an edge over a face, without looking for where it is least: the
   // twist of a bilinear face bulges by a quarter of itself at most.
   double
@@ -58,22 +71,51 @@ namespace akmon
   }
 
 
-  // Where a third of an edge over a face that bulges is closest to it: at one of its ends, or where
-  // it is parallel to the face. What is at the ends of the edge over the face has other pairs.
+  // Where a part of an edge over a face that bulges is closest to it, from and to parts of what is
+  // over the face. What is at the ends has other pairs.
   double
   FeatureSearch::closest_over(const ContactNodes::Field &x,
                               const Line &line,
                               const unsigned int face,
                               const std::array<double, 2> &stretch,
-                              const unsigned int part) const
+                              const double from,
+                              const double to) const
   {
     constexpr double from_ends = 5e-3; // of the edge over the face
 
-    const auto at = [&](const double third) {
-      return stretch[0] +
-             std::clamp(third / 3., from_ends, 1. - from_ends) * (stretch[1] - stretch[0]);
+    const auto at = [&](const double part) {
+      return stretch[0] + std::clamp(part, from_ends, 1. - from_ends) * (stretch[1] - stretch[0]);
     };
-    return closest_between({line.a, line.u}, surface.segment(x, face), at(part), at(part + 1.));
+    return closest_between({line.a, line.u}, surface.segment(x, face), at(from), at(to));
+  }
+
+
+  // The least gap around a pair's point of the edge: where a bulge is highest moves on in a step.
+  // Each place is seen by one pair only, as two with one gap would not settle.
+  double
+  FeatureSearch::least_gap_around(const ContactNodes::Field &x,
+                                  const Line &line,
+                                  const Record &pair,
+                                  const std::array<double, 2> &stretch) const
+  {
+    const double length = stretch[1] - stretch[0];
+    double low = pair.s - around * length, high = pair.s + around * length;
+    for (const Record &other : records)
+      if (other.is_beside(pair))
+        {
+          const double middle = 0.5 * (pair.s + other.s);
+          if (other.s < pair.s)
+            low = std::max(low, middle);
+          else if (other.s > pair.s)
+            high = std::min(high, middle);
+        }
+    const double s = closest_over(x,
+                                  line,
+                                  pair.partner,
+                                  stretch,
+                                  (low - stretch[0]) / length,
+                                  (high - stretch[0]) / length);
+    return gap_over(x, line.a + s * line.u, pair.partner);
   }
 
 
@@ -108,25 +150,13 @@ namespace akmon
   }
 
 
-  // What the twist of a face may add to its bulge in a step, from the last one.
-  double
-  FeatureSearch::bulge_to_come(const View &view, const unsigned int face) const
-  {
-    constexpr double steps = 4.;
-
-    const auto &nodes = surface.get_faces()[face].nodes;
-    return steps *
-           (view.dx[nodes[0]] - view.dx[nodes[1]] + view.dx[nodes[2]] - view.dx[nodes[3]]).norm();
-  }
-
-
+  // Those that carried forces in the last step, and places that are inside already. Others join
+  // during the step: edges lie in faces at many places, where pairs would only repeat each other.
   void
   FeatureSearch::find_bulges(const View &view,
                              const std::vector<ContactPair> &previous,
                              std::vector<ContactPair> &pairs)
   {
-    constexpr double least_sag = 1e-9; // of the face's size: less is no bulge
-
     const auto lines = lines_now();
     near_edges.clear();
     for (const auto &[feature, f] : faces_of_edges)
@@ -138,68 +168,174 @@ namespace akmon
         near_edges.push_back({{feature, f}});
         std::array<double, 2> stretch;
         if (!stretch_over(view.x, line, f, stretch) ||
-            least_gap_over(view.x, line, f, stretch) > view.reach ||
-            sag_over(view.x, line, f, stretch) + bulge_to_come(view, f) < least_sag * face.size)
+            least_gap_over(view.x, line, f, stretch) > view.reach)
           continue;
-        for (unsigned int part = 0; part < 3; ++part)
+        for (unsigned int part = 0; part < n_parts; ++part)
           {
-            const double s    = closest_over(view.x, line, f, stretch, part);
+            const double s    = closest_over(view.x,
+                                          line,
+                                          f,
+                                          stretch,
+                                          double(part) / n_parts,
+                                          (part + 1.) / n_parts);
             const Touch touch = touch_over(view.x, line.a + s * line.u, f);
-            if (touch.gap > view.reach || touch.gap < -deepest_part * face.depth)
+            const Record record{Kind::bulge, feature, f, part, s};
+            if (touch.gap > view.reach || touch.gap < -deepest_part * face.depth ||
+                sees(record, around * (stretch[1] - stretch[0])))
               continue;
-            const auto pair = make_pair(view, {Kind::bulge, feature, f, part, s}, touch);
-            if (!is_behind(pair, previous))
+            const auto pair = make_pair(view, record, touch);
+            if ((was_loaded(pair, previous) || is_inside(view.x, line, record, stretch)) &&
+                !is_behind(pair, previous))
               pairs.push_back(pair);
+            else
+              records.pop_back();
           }
       }
   }
 
 
-  // The pairs of an edge and a face tell how deep it is at their points of the edge. Where it is
-  // deeper by more than gaps are settled to there has to be another one.
-  void
+  bool
+  FeatureSearch::was_loaded(const ContactPair &pair, const std::vector<ContactPair> &previous)
+  {
+    const auto known = find_pair(previous, pair);
+    return known != previous.end() && known->normal_force > 0.;
+  }
+
+
+  // Whether an edge is deeper in a face at a place than at both ends of what is over the face.
+  bool
+  FeatureSearch::is_inside(const ContactNodes::Field &x,
+                           const Line &line,
+                           const Record &place,
+                           const std::array<double, 2> &stretch) const
+  {
+    constexpr double least = 4e-10; // of the face's size
+
+    const auto gap = [&](const double s) {
+      return gap_over(x, line.a + s * line.u, place.partner);
+    };
+    return gap(place.s) < std::min(gap(stretch[0]), gap(stretch[1])) -
+                            least * surface.get_faces()[place.partner].size;
+  }
+
+
+  // Whether there is a pair of the same edge and face no further from a place than a part of the
+  // edge.
+  bool
+  FeatureSearch::sees(const Record &place, const double distance) const
+  {
+    return std::any_of(records.begin(), records.end(), [&](const Record &record) {
+      return record.is_beside(place) && std::abs(record.s - place.s) < distance;
+    });
+  }
+
+
+  // The least gap at the ends of what is of an edge over a face, where corners and crossings have
+  // pairs: what is no deeper needs no other.
+  double
+  FeatureSearch::gap_at_ends(const ContactNodes::Field &x,
+                             const Line &line,
+                             const Record &place,
+                             const std::array<double, 2> &stretch) const
+  {
+    const auto &edges = surface.get_faces()[place.partner].edges;
+    double least      = 0.;
+    const auto see    = [&](const double s) {
+      least = std::min(least,
+                       gap_over(x,
+                                line.a + std::clamp(s, stretch[0], stretch[1]) * line.u,
+                                place.partner));
+    };
+    for (const Record &record : records)
+      if (record.kind == Kind::corner)
+        {
+          for (const unsigned int end : {0U, 1U})
+            if (features.vertices[record.feature].place == features.edges[place.feature].ends[end])
+              see(end);
+        }
+      else if (record.kind == Kind::crossing && record.feature == place.feature &&
+               std::find(edges.begin(), edges.end(), record.partner) != edges.end())
+        see(record.s);
+    return least;
+  }
+
+
+  bool
   FeatureSearch::join_bulges(const View &view,
                              const View &reached,
                              const Pose &pose,
-                             const std::vector<ContactPair> &pairs,
                              const double tolerance,
+                             const bool may_move,
+                             std::vector<ContactPair> &pairs,
                              std::vector<ContactPair> &joining)
   {
+    bool any = false;
     for (const auto &[feature, f] : near_edges)
       {
-        const Line line   = line_of(pose, feature);
-        const double size = surface.get_faces()[f].size;
+        const Line line     = line_of(pose, feature);
+        const double unseen = tolerance * surface.get_faces()[f].size;
         std::array<double, 2> stretch;
         if (!line.may_touch(unit_normal(surface.segment(reached.x, f))) ||
             !stretch_over(reached.x, line, f, stretch) ||
-            least_gap_over(reached.x, line, f, stretch) >= -tolerance * size)
+            least_gap_over(reached.x, line, f, stretch) >= -unseen)
           continue;
-        double seen         = 0.;
-        unsigned int number = 0;
-        for (const auto &pair : pairs)
-          if (pair.kind == ContactPair::Kind::rigid_feature && pair.interface == interface)
-            if (const Record &record = records[pair.row];
-                record.kind == Kind::bulge && record.feature == feature && record.partner == f)
-              {
-                seen   = std::min(seen, gap_over(reached.x, line.a + record.s * line.u, f));
-                number = std::max(number, record.part + 1);
-              }
-        for (unsigned int part = 0; part < 3; ++part)
-          {
-            const double s   = closest_over(reached.x, line, f, stretch, part);
-            const double gap = gap_over(reached.x, line.a + s * line.u, f);
-            if (gap >= seen - tolerance * size)
-              continue;
-            const Line before = line_of(body.pose(), feature);
-            const Touch touch = touch_over(view.x, before.a + s * before.u, f);
-            if (gap >= touch.gap - tolerance * size || touch.gap < -barely_inside * size)
-              continue;
-            auto pair      = make_pair(view,
-                                  {Kind::bulge, feature, f, std::max(number++, 3U), s},
-                                  touch);
-            pair.curvature = gap - pair.gap - pair.normal * pair.relative(reached.dx);
-            joining.push_back(pair);
-          }
+        Record place{Kind::bulge, feature, f, 0, closest_over(reached.x, line, f, stretch, 0., 1.)};
+        const double length = stretch[1] - stretch[0];
+        const double gap    = gap_over(reached.x, line.a + place.s * line.u, f);
+        if (gap >= -unseen || sees(place, around * length) ||
+            gap >= std::max(-unseen, gap_at_ends(reached.x, line, place, stretch)) - unseen)
+          continue;
+        place.part = std::min(n_parts - 1,
+                              static_cast<unsigned int>(n_parts * (place.s - stretch[0]) / length));
+        any        = add_bulge(view, reached, place, gap, unseen, may_move, pairs, joining) || any;
       }
+    return any;
+  }
+
+
+  // A pair for a place where an edge will have a gap, and in which it is not yet. Where there is
+  // one of the same edge and face it moves there.
+  bool
+  FeatureSearch::add_bulge(const View &view,
+                           const View &reached,
+                           Record place,
+                           const double gap,
+                           const double unseen,
+                           const bool may_move,
+                           std::vector<ContactPair> &pairs,
+                           std::vector<ContactPair> &joining)
+  {
+    const double size = surface.get_faces()[place.partner].size;
+    const Line before = line_of(body.pose(), place.feature);
+    const Touch touch = touch_over(view.x, before.a + place.s * before.u, place.partner);
+    if (gap >= touch.gap - unseen || touch.gap < -barely_inside * size)
+      return false;
+    const auto is_beside = [&](const Record &record) { return record.is_beside(place); };
+    const auto known     = std::find_if(records.begin(), records.end(), is_beside);
+    const bool moves = may_move && std::count_if(records.begin(), records.end(), is_beside) == 1;
+    const unsigned int row = known - records.begin();
+    if (moves)
+      place.part = known->part;
+    else
+      while (std::any_of(records.begin(), records.end(), [&](const Record &record) {
+        return record.is_beside(place) && record.part == place.part;
+      }))
+        place.part += n_parts;
+    auto pair      = make_pair(view, place, touch);
+    pair.curvature = gap - pair.gap - pair.normal * pair.relative(reached.dx);
+    if (!moves)
+      {
+        joining.push_back(pair);
+        return true;
+      }
+    records[row] = place;
+    records.pop_back();
+    pair.row              = row;
+    const auto old        = find_pair(pairs, pair.key());
+    pair.depth            = old->depth;
+    pair.normal_force     = old->normal_force;
+    pair.tangential_force = pair.tangential_part(old->tangential_force);
+    *old                  = pair;
+    return true;
   }
 } // namespace akmon

@@ -269,10 +269,9 @@ namespace akmon
     if (record.kind == Kind::bulge)
       {
         std::array<double, 2> stretch;
-        if (!stretch_over(x, line, record.partner, stretch) || record.s < stretch[0] ||
-            record.s > stretch[1])
+        if (!stretch_over(x, line, record.partner, stretch))
           return false;
-        gap = gap_over(x, line.a + record.s * line.u, record.partner);
+        gap = least_gap_around(x, line, record, stretch);
         return true;
       }
     Crossing crossing;

@@ -216,13 +216,15 @@ namespace akmon
         // Beyond an end nothing is inside.
         const bool past = std::max(past_end(crossing.s), past_end(crossing.t)) > end_rounding;
         const auto pair = make_pair(view,
-                                    {Kind::crossing, feature, e},
+                                    {Kind::crossing, feature, e, 0, crossing.s},
                                     {{{edge.nodes[0], 1. - crossing.t},
                                       {edge.nodes[1], crossing.t}},
                                      crossing.normal,
                                      past ? std::max(0., crossing.gap) : crossing.gap});
         if (!is_behind(pair, previous))
           pairs.push_back(pair);
+        else
+          records.pop_back();
       }
   }
 } // namespace akmon

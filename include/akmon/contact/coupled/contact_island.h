@@ -99,8 +99,9 @@ namespace akmon
     // A residual that the rounding of constraints that repeat each other explains.
     static constexpr double nearly = 1e-8;
 
-    // Pairs, where Newton steps need a better start: sweeps take the matrix.
-    static constexpr std::size_t most_swept = 32;
+    // Pairs: of rigid bodies, whose matrix is assembled; and where Newton steps need a better
+    // start, which takes the matrix.
+    static constexpr std::size_t most_of_rigid_bodies = 32, most_restarted = 64;
 
     bool
     has_rigid_bodies(const ContactNodes::Id first_common_id) const;

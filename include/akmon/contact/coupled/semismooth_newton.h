@@ -61,17 +61,77 @@ namespace akmon
           Vector &t,
           std::vector<CoulombFace> &faces_of_t)
     {
-      data         = &new_data;
-      precondition = &new_precondition;
-      problem.begin(*data, op);
-      step.begin(*data, problem, new_precondition);
+      begin(new_data, op, new_precondition);
       std::swap(faces, faces_of_t);
       const Result result = run(t);
       std::swap(faces, faces_of_t);
       return result;
     }
 
+    /**
+     * The same from no forces, with compliances from that of the pairs themselves down to hardly
+     * any: where constraints repeat each other nearly and rub in different directions, faces settle
+     * for each of them from those of the one before.
+     */
+    Result
+    follow_compliance(const Problem &new_data,
+                      Operator &op,
+                      Preconditioner &new_precondition,
+                      Vector &t,
+                      std::vector<CoulombFace> &faces_of_t)
+    {
+      constexpr double most = 1., least = 1e-9, fastest = 0.1, slowest = 0.98;
+      constexpr unsigned int patience = 8;
+
+      begin(new_data, op, new_precondition);
+      most_applications = data->limit;
+      t.assign(t.size(), {});
+      faces.assign(t.size(), {});
+      double residual = std::numeric_limits<double>::max(), c = most, part = fastest;
+      while (c > least && part < slowest && residual > data->sufficient && is_allowed())
+        {
+          t_of_limits = t;
+          problem.set_compliance(c);
+          problem.clear_reference();
+          problem.evaluate(t);
+          const double enough = 0.5 * data->tolerance;
+          if (find_faces(t, enough, patience, Effort::usual) > enough && c < most)
+            {
+              t = t_of_limits;
+              c /= part;
+              part = std::sqrt(part);
+            }
+          else
+            {
+              problem.refer_to(t);
+              residual = problem.measure(t); // without compliance
+              part     = std::max(fastest, part * std::sqrt(part));
+            }
+          c *= part;
+        }
+      keep_limits(t);
+      std::swap(faces, faces_of_t);
+      return {problem.applications(), residual, residual <= data->sufficient};
+    }
+
   private:
+    void
+    begin(const Problem &new_data, Operator &op, Preconditioner &new_precondition)
+    {
+      data         = &new_data;
+      precondition = &new_precondition;
+      problem.begin(*data, op);
+      step.begin(*data, problem, new_precondition);
+    }
+
+    // What the tolerance left beyond them.
+    void
+    keep_limits(Vector &t) const
+    {
+      for (std::size_t i = 0; i < t.size(); ++i)
+        t[i] = CoulombFace::project(t[i], problem.limit_of(i, t[i]));
+    }
+
     Result
     run(Vector &t)
     {
@@ -97,8 +157,7 @@ namespace akmon
       const bool converged = residual <= data->sufficient;
       if (!converged && data->rubs())
         residual = close_gaps(t);
-      for (std::size_t i = 0; i < n; ++i) // what the tolerance left
-        t[i] = CoulombFace::project(t[i], problem.limit_of(i, t[i]));
+      keep_limits(t);
       return {problem.applications(), residual, converged};
     }
 

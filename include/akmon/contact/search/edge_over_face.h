@@ -29,11 +29,6 @@ namespace akmon
   double
   gap_over(const dealii::Tensor<1, 3> &p, const Segment &corners);
 
-  /// By how much the middle of a part of an edge is closer to a face than its ends are in the mean;
-  /// length.
-  double
-  sag_over(const StraightEdge &edge, const Segment &corners, const std::array<double, 2> &stretch);
-
   /// Where an edge over a face that bulges is closest to it: at one of the ends of a part of it, or
   /// where it is parallel to the face. Right if there is one such place at most.
   double

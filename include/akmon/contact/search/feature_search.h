@@ -19,9 +19,9 @@ namespace akmon
    *
    * - a corner with the closest faces;
    * - an edge with an edge between faces, where both cross;
-   * - an edge with the inside of a face that bulges towards it (bilinear faces may be twisted), by
-   *   thirds of what is over the face: where the bulge is highest may change from end to end in a
-   *   step.
+   * - an edge with the inside of a face that bulges towards it (bilinear faces may be twisted): the
+   *   pair's gap is the least one around its point of the edge, as where the bulge is highest may
+   *   change in a step.
    *
    * The row of the gap operator is G u = u_c + theta x (q - x_c) - sum_k N_k u_k with the closest
    * point q of the surface: the body's motion continued to q. G vanishes for rigid motions and
@@ -100,20 +100,25 @@ namespace akmon
 
     /**
      * Append pairs of edges with the inside of faces for what is deeper, where a step leads, than
-     * any of the pairs there are tells: with them gaps settle along all of the edge (the exchange
-     * method of semi-infinite programming, Hettich and Kortanek, SIAM Review 35, 1993).
+     * any of the pairs there are tells, or move some there: with them gaps settle along all of the
+     * edge (the exchange method of semi-infinite programming, Hettich and Kortanek, SIAM Review 35,
+     * 1993).
      * @param view       of the last search
      * @param reached    where the step leads: configuration and increments
      * @param pose       of the body there
-     * @param pairs      of the last search, and those that have joined them
      * @param tolerance  of what is deeper, over the cell size
+     * @param may_move   whether the only pair of an edge and a face moves instead of getting
+     * company
+     * @param pairs      of the last search, and those that have joined them, sorted by their keys
+     * @return           whether any has joined or moved
      */
-    void
+    bool
     join_bulges(const View &view,
                 const View &reached,
                 const Pose &pose,
-                const std::vector<ContactPair> &pairs,
                 const double tolerance,
+                const bool may_move,
+                std::vector<ContactPair> &pairs,
                 std::vector<ContactPair> &joining);
 
     unsigned int
@@ -137,7 +142,15 @@ namespace akmon
       unsigned int feature;   ///< number of the corner or of the edge
       unsigned int partner;   ///< number of the face or of the edge between faces
       unsigned int part = 0;  ///< of a bulge: which third of the edge over it; beyond, joined later
-      double s          = 0.; ///< of a bulge: part of the edge where the pair is
+      double s          = 0.; ///< part of the edge where the pair is, not of a corner
+
+      /// Whether both are of one edge with the inside of one face.
+      bool
+      is_beside(const Record &other) const
+      {
+        return kind == Kind::bulge && other.kind == Kind::bulge && feature == other.feature &&
+               partner == other.partner;
+      }
     };
 
     // An edge of the body in space.
@@ -257,14 +270,36 @@ namespace akmon
                  const Line &line,
                  const unsigned int face,
                  const std::array<double, 2> &stretch,
-                 const unsigned int part) const;
+                 const double from,
+                 const double to) const;
     double
-    bulge_to_come(const View &view, const unsigned int face) const;
+    least_gap_around(const ContactNodes::Field &x,
+                     const Line &line,
+                     const Record &pair,
+                     const std::array<double, 2> &stretch) const;
+    static bool
+    was_loaded(const ContactPair &pair, const std::vector<ContactPair> &previous);
+    bool
+    is_inside(const ContactNodes::Field &x,
+              const Line &line,
+              const Record &place,
+              const std::array<double, 2> &stretch) const;
+    bool
+    sees(const Record &place, const double distance) const;
     double
-    sag_over(const ContactNodes::Field &x,
-             const Line &line,
-             const unsigned int face,
-             const std::array<double, 2> &stretch) const;
+    gap_at_ends(const ContactNodes::Field &x,
+                const Line &line,
+                const Record &place,
+                const std::array<double, 2> &stretch) const;
+    bool
+    add_bulge(const View &view,
+              const View &reached,
+              Record place,
+              const double gap,
+              const double unseen,
+              const bool may_move,
+              std::vector<ContactPair> &pairs,
+              std::vector<ContactPair> &joining);
     double
     gap_over(const ContactNodes::Field &x,
              const dealii::Tensor<1, 3> &p,
