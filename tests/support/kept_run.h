@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <memory>
 
 #include "support/run_case.h"
@@ -33,6 +34,17 @@ namespace akmon::test
     simulation->run();
     Table history(scratch.path + "/history.csv");
     return {std::move(history), std::move(simulation)};
+  }
+
+
+  /// The same for a case that a test writes itself.
+  inline KeptRun
+  run_text(const std::string &text, const std::vector<std::string> &overrides)
+  {
+    const ScratchDirectory scratch;
+    const std::string file = scratch.path + "/case.prm";
+    std::ofstream(file) << text;
+    return run_and_keep(file, overrides);
   }
 
 

@@ -17,20 +17,6 @@ namespace akmon
     constexpr unsigned int n_parts = 3;
     constexpr double around        = 0.25;
 
-
-    // The pair with the same key; the end if there is none.
-    template <typename Pairs>
-    auto
-    find_pair(Pairs &pairs, const ContactPair &pair)
-    {
-      const auto found = std::lower_bound(pairs.begin(),
-                                          pairs.end(),
-                                          pair,
-                                          [](const ContactPair &a, const ContactPair &b) {
-                                            return a.key() < b.key();
-                                          });
-      return found != pairs.end() && found->key() == pair.key() ? found : pairs.end();
-    }
   } // namespace
 
 
@@ -197,7 +183,7 @@ namespace akmon
   bool
   FeatureSearch::was_loaded(const ContactPair &pair, const std::vector<ContactPair> &previous)
   {
-    const auto known = find_pair(previous, pair);
+    const auto known = find_pair(previous, pair.key());
     return known != previous.end() && known->normal_force > 0.;
   }
 

@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "support/kept_run.h"
 #include "support/report.h"
 
@@ -65,16 +63,6 @@ end
   bodies(const std::string &names, const std::string &sections)
   {
     return "subsection Bodies\nset Names = " + names + "\n" + sections + "end\n";
-  }
-
-
-  KeptRun
-  run_text(const std::string &text, const std::vector<std::string> &overrides)
-  {
-    const ScratchDirectory scratch;
-    const std::string file = scratch.path + "/case.prm";
-    std::ofstream(file) << text;
-    return run_and_keep(file, overrides);
   }
 
 
