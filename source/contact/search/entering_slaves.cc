@@ -15,8 +15,8 @@ namespace akmon
 
   namespace
   {
-    constexpr double unseen = 1e-7; // of the cell size: no deeper needs a pair
-  }                                 // namespace
+    constexpr double least_depth = 1e-7; // of the cell size: no deeper needs a pair
+  }                                      // namespace
 
 
   // The closest face that a slave is inside of where a step leads. Of several that which it was in
@@ -45,7 +45,7 @@ namespace akmon
           }
       }
     return closest < std::numeric_limits<double>::max() && complete(reached, slave, partner) &&
-           partner.gap < -unseen * slaves[slave].size;
+           partner.gap < -least_depth * slaves[slave].size;
   }
 
 

@@ -15,7 +15,7 @@ namespace akmon
     // Pairs of an edge and a face to begin with; each sees what is around it, in parts of the edge
     // over the face.
     constexpr unsigned int n_parts = 3;
-    constexpr double around        = 0.25;
+    constexpr double seen_around   = 0.25;
 
   } // namespace
 
@@ -85,7 +85,7 @@ namespace akmon
                                   const std::array<double, 2> &stretch) const
   {
     const double length = stretch[1] - stretch[0];
-    double low = pair.s - around * length, high = pair.s + around * length;
+    double low = pair.s - seen_around * length, high = pair.s + seen_around * length;
     for (const Record &other : records)
       if (other.is_beside(pair))
         {
@@ -167,7 +167,7 @@ namespace akmon
             const Touch touch = touch_over(view.x, line.a + s * line.u, f);
             const Record record{Kind::bulge, feature, f, part, s};
             if (touch.gap > view.reach || touch.gap < -deepest_part * face.depth ||
-                sees(record, around * (stretch[1] - stretch[0])))
+                sees(record, seen_around * (stretch[1] - stretch[0])))
               continue;
             const auto pair = make_pair(view, record, touch);
             if ((was_loaded(pair, previous) || is_inside(view.x, line, record, stretch)) &&
@@ -268,7 +268,7 @@ namespace akmon
         Record place{Kind::bulge, feature, f, 0, closest_over(reached.x, line, f, stretch, 0., 1.)};
         const double length = stretch[1] - stretch[0];
         const double gap    = gap_over(reached.x, line.a + place.s * line.u, f);
-        if (gap >= -unseen || sees(place, around * length) ||
+        if (gap >= -unseen || sees(place, seen_around * length) ||
             gap >= std::max(-unseen, gap_at_ends(reached.x, line, place, stretch)) - unseen)
           continue;
         place.part = std::min(n_parts - 1,
