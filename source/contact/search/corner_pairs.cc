@@ -65,18 +65,18 @@ namespace akmon
   // The neighbours across the edges of a valley that the slave may cross in the step: it must stay
   // before both faces, whose normals differ. The gap to the closest point alone, along the normal
   // of the face it leaves, would be found wrong by the solution only, and friction drags the slave
-  // further the more that normal pushes it.
+  // further the more that normal pushes it. @param first  number of the slave's first pair
   void
   SurfaceSearch::add_valley_pairs(const ContactNodes::Field &x,
                                   const double reach,
                                   Partner partner,
+                                  const std::size_t first,
                                   std::vector<ContactPair> &pairs)
   {
     constexpr double part = 0.25; // of the reach: what slaves slide in a step at most
 
     if (contact.gap_model != SurfaceContact::GapModel::point_to_segment)
       return;
-    const std::size_t first  = pairs.size() - 1;
     const unsigned int slave = pairs[first].row;
     const auto normal        = face_normal(x, partner);
     find_valley(x, slave, reach, partner, normal);
@@ -115,16 +115,17 @@ namespace akmon
   }
 
 
-  // Further faces of a corner that the slave may run into: turned against the first partner, with
-  // the slave in front of them. Behind the face on the other side of a ridge it is outside.
+  // Further faces of a corner that the slave may run into: turned against its last partner so far,
+  // with the slave in front of them. Behind the face on the other side of a ridge it is outside.
   void
   SurfaceSearch::add_corner_pairs(const ContactNodes::Field &x,
                                   const double reach,
+                                  const std::size_t first,
                                   std::vector<ContactPair> &pairs)
   {
     constexpr double turned = 0.5; // cosine
 
-    const std::size_t first  = pairs.size() - 1;
+    const std::size_t last   = pairs.size() - 1;
     const unsigned int slave = pairs[first].row;
     const auto point         = x[slaves[slave].number];
     for (unsigned int i = slaves[slave].first_candidate; i < slaves[slave + 1].first_candidate; ++i)
@@ -137,13 +138,13 @@ namespace akmon
         const auto is_turned = [&](const ContactPair &other) {
           return partner.normal * other.normal < turned;
         };
-        if (!std::all_of(pairs.begin() + first, pairs.end(), is_turned))
+        if (!std::all_of(pairs.begin() + last, pairs.end(), is_turned))
           continue;
         const auto corners = segment(x, masters[partner.face]);
         partner.projection = project(point, corners);
         if (partner.projection.offset.norm() <= reach &&
             lies_on(x, slave, corners, partner.projection) && complete(x, slave, partner) &&
-            std::all_of(pairs.begin() + first, pairs.end(), is_turned) &&
+            std::all_of(pairs.begin() + last, pairs.end(), is_turned) &&
             partner.gap >= in_front * slaves[slave].size)
           {
             add_pair(x, slave, partner, pairs);

@@ -368,11 +368,12 @@ namespace akmon
         watched.push_back(slave);
         return;
       }
+    const std::size_t first = pairs.size();
     add_pair(x, slave, partner, pairs);
     if (coupled && distance <= reach && memory.others_clear_of <= furthest * reach)
       {
-        add_valley_pairs(x, reach, partner, pairs);
-        add_corner_pairs(x, reach, pairs);
+        add_valley_pairs(x, reach, partner, first, pairs);
+        add_corner_pairs(x, reach, first, pairs);
         if (is_near_others(slave, reach, partner.face))
           watched.push_back(slave);
       }

@@ -329,10 +329,12 @@ namespace akmon
     add_valley_pairs(const ContactNodes::Field &x,
                      const double reach,
                      Partner partner,
+                     const std::size_t first,
                      std::vector<ContactPair> &pairs);
     void
     add_corner_pairs(const ContactNodes::Field &x,
                      const double reach,
+                     const std::size_t first,
                      std::vector<ContactPair> &pairs);
     bool
     partner_at(const ContactNodes::Field &x, const ContactPair &pair, Partner &partner) const;
