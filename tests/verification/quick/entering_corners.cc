@@ -154,7 +154,7 @@ end
       EXPECT_LT(largest_penetration(poured_boxes,
                                     {"Time/End=0.06",
                                      "Contact/boxes/Friction coefficient=" + friction}),
-                2e-3);
+                5e-4);
   }
 
 
