@@ -27,13 +27,18 @@ namespace akmon
     };
 
 
+    // Of the entries and their defaults. The reader wants UTF-8, which a file need not be.
     Tree
     tree_of(const ParameterHandler &prm)
     {
-      std::stringstream text;
-      prm.print_parameters(text, ParameterHandler::JSON);
+      std::stringstream printed;
+      prm.print_parameters(printed, ParameterHandler::JSON);
+      std::string text = printed.str();
+      std::replace_if(
+        text.begin(), text.end(), [](const char c) { return (c & 0x80) != 0; }, '?');
+      std::istringstream ascii(text);
       Tree tree;
-      read_json(text, tree);
+      read_json(ascii, tree);
       return tree;
     }
 

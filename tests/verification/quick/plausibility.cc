@@ -107,6 +107,11 @@ namespace plausibility
                            "two_bars",
                            {"Contact solver/Penalty scale=1"},
                            "[Contact solver] Penalty scale = 1 has no effect"},
+                    // In Latin-1, which is no UTF-8.
+                    Oddity{"penalty_scale_under_a_title_in_other_letters",
+                           "two_bars",
+                           {"Title=Sto\xdf", "Contact solver/Penalty scale=1"},
+                           "[Contact solver] Penalty scale = 1 has no effect"},
                     Oddity{"probe_beside_the_body",
                            "two_bars",
                            {"Probes/left_face/Point=0.05, 0, 0"},
